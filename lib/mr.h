@@ -20,8 +20,8 @@
  * accepts NULL.  What is put into a frame is borrowed by it.
  * Threads.  One context serves one thread at a time; inside, functions use as many threads as the context
  * has, and give the same bytes for any number.
- * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An
- *mr_..._result may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
+ * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An mr_..._result
+ * may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
  */
 #ifndef MR_H
 #define MR_H
@@ -44,10 +44,7 @@ extern "C" {
 
 #define MR_UNKNOWN SIZE_MAX
 /* Values of all fields, as a line. */
-#define MR_DEFAULTS(...)                                                                                     \
-	{                                                                                                    \
-		__VA_ARGS__                                                                                  \
-	}
+#define MR_DEFAULTS(...) { __VA_ARGS__ }
 
 /* Contexts */
 
@@ -78,23 +75,19 @@ MR_API void mr_ctx_delete(mr_ctx *ctx);
 /* The sentence of the last failure, until the next; empty before the first. */
 MR_API const char *mr_error(const mr_ctx *ctx);
 
-typedef struct mr_v3 {
-	double x, y, z;
-} mr_v3;
+typedef struct mr_v3 { double x, y, z; } mr_v3;
 
 /* Findings: what a user should know of a result that is given all the same; man/mr-findings.7 explains each.
- * First those of a surface, by comparing it with what it was; then of data; then what algorithms alone know.
- */
-#define MR_FINDINGS(X)                                                                                       \
-	X(FOLDED, "folded")                                                                                  \
-	X(CROSSING, "crossing") X(COLLIDED, "collided") X(TORN, "torn") X(COARSE, "coarse")                  \
-	    X(APART, "apart") X(MISSED, "missed") X(VOLUME, "volume") X(SHRUNK, "shrunk")                    \
-		X(DISTANT, "distant") X(GONE, "gone") X(LOST, "lost") X(STALE, "stale")                      \
-		    X(ROUNDED, "rounded") X(GUESSED, "guessed") X(MISSING, "missing")                        \
-			X(REPAIRED, "repaired") X(UNCERTAIN, "uncertain") X(UNREACHED, "unreached")          \
-			    X(BARE, "bare") X(ROUGH, "rough") X(FILLED, "filled")  \
-				X(INEXACT, "inexact") X(UNHELD, "unheld") X(HANDLE, "handle")                \
-				    X(LIMIT, "limit") X(LAYER, "layer")
+ * First those of a surface, by comparing it with what it was; then of data; then what algorithms alone know. */
+#define MR_FINDINGS(X) \
+	X(FOLDED, "folded") X(CROSSING, "crossing") X(COLLIDED, "collided") X(TORN, "torn") \
+	X(COARSE, "coarse") X(APART, "apart") X(MISSED, "missed") X(VOLUME, "volume") X(SHRUNK, "shrunk") \
+	X(DISTANT, "distant") X(GONE, "gone") \
+	X(LOST, "lost") X(STALE, "stale") X(ROUNDED, "rounded") X(GUESSED, "guessed") X(MISSING, "missing") \
+	X(REPAIRED, "repaired") \
+	X(UNCERTAIN, "uncertain") X(UNREACHED, "unreached") X(BARE, "bare") \
+	X(ROUGH, "rough") X(FILLED, "filled") X(INEXACT, "inexact") X(UNHELD, "unheld") X(HANDLE, "handle") \
+	X(LIMIT, "limit") X(LAYER, "layer")
 
 #define MR_FINDING_KIND(kind, name) MR_##kind,
 typedef enum mr_finding_kind { MR_FINDINGS(MR_FINDING_KIND) MR_FINDING_KINDS } mr_finding_kind;
@@ -139,9 +132,7 @@ MR_API void mr_mark_release(mr_ctx *ctx, mr_mark mark);
 
 /* Meshes */
 
-typedef struct mr_tri {
-	uint32_t v[3];
-} mr_tri; /* counter-clockwise, seen from outside */
+typedef struct mr_tri { uint32_t v[3]; } mr_tri; /* counter-clockwise, seen from outside */
 
 /* A view of arrays that somebody else keeps; without faces a cloud of points. */
 typedef struct mr_mesh {
@@ -339,8 +330,8 @@ typedef struct mr_remesh_result {
 	size_t splits, collapses, flips, tips; /* tips: of thin limbs, kept */
 	size_t vertices, faces;                /* of the result */
 	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
-	size_t flipped, folded;                           /* faces against the input; edges */
-	size_t sharp_edges;                               /* of the input: they are kept */
+	size_t flipped, folded; /* faces against the input; edges */
+	size_t sharp_edges; /* of the input: they are kept */
 	double seconds_rounds, seconds_areas;
 } mr_remesh_result;
 
@@ -392,9 +383,7 @@ typedef struct mr_normals_result {
 MR_API mr_status mr_normals_frame(
     mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_crop_result {
-	size_t vertices, faces, vertices_dropped, faces_dropped;
-} mr_crop_result;
+typedef struct mr_crop_result { size_t vertices, faces, vertices_dropped, faces_dropped; } mr_crop_result;
 
 /* Leaves what n rules, in their order, make free, and drops what they make fixed; where the first makes some
  * free the others are fixed to begin with.  layer: NULL: mesh, else control, else points. */
@@ -404,8 +393,8 @@ MR_API mr_status mr_crop_frame(mr_ctx *ctx, mr_frame *f, const char *layer, cons
 typedef struct mr_split_opts {
 	double distance;        /* of points, at which they are connected; 0: four times their spacing */
 	bool distance_relative; /* distance is a share of the bounding box's diagonal */
-	size_t least; /* vertices of a part; 0: 2 of a mesh, of points a hundredth of the largest part's */
-	const char *layer; /* NULL: mesh, else control, else points */
+	size_t least;           /* vertices of a part; 0: 2 of a mesh, of points a hundredth of the largest part's */
+	const char *layer;      /* NULL: mesh, else control, else points */
 } mr_split_opts;
 
 typedef struct mr_split_result {
@@ -443,11 +432,7 @@ MR_API mr_status mr_pose_frame(
 
 typedef enum mr_solver_choice {
 	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
-	MR_SOLVER_CHOLESKY,
-	MR_SOLVER_LU,
-	MR_SOLVER_CG,
-	MR_SOLVER_MULTIGRID,
-	MR_SOLVER_VCYCLE
+	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
 } mr_solver_choice;
 
 typedef enum mr_areas {
@@ -477,7 +462,7 @@ typedef struct mr_solve_opts {
 } mr_solve_opts;
 
 #define MR_SOLVE_DEFAULTS                                                                                    \
-	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, 0, 20000, 0,                          \
+	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, 0, 20000, 0,                \
 	    MR_ROTATIONS_INTERPOLATED, 0, false, false, NULL)
 
 typedef struct mr_solve_result {
@@ -494,9 +479,7 @@ typedef struct mr_solve_result {
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
     mr_solve_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_gap {
-	double mean, high, max;
-} mr_gap; /* of distances: 99 % are at most high */
+typedef struct mr_gap { double mean, high, max; } mr_gap; /* of distances: 99 % are at most high */
 
 /* How far points that count are from a surface, and it from them, in units of the positions. */
 typedef struct mr_gaps {
@@ -518,13 +501,11 @@ typedef struct mr_decode_opts {
 
 #define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN)
 
-MR_API mr_status mr_decode_frame(
-    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache) MR_WARN_UNUSED;
+MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache) MR_WARN_UNUSED;
 
 /* Reconstruction: Jeong, Kim 2001 */
 
-/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled.
- */
+/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled. */
 typedef enum mr_wrap_method { MR_WRAP_AUTO, MR_WRAP_CUBE, MR_WRAP_VOLUME } mr_wrap_method;
 
 /* What the points leave open is closed: narrow holes of the sampling, all, none. */
@@ -602,8 +583,7 @@ typedef struct mr_simplify_result {
 MR_API mr_status mr_simplify_frame(
     mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result) MR_WARN_UNUSED;
 
-/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once.
- */
+/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once. */
 typedef enum mr_fit_method { MR_FIT_LOCAL, MR_FIT_LEAST_SQUARES } mr_fit_method;
 
 typedef struct mr_fit_opts {
@@ -682,23 +662,14 @@ typedef struct mr_subdivide_result {
 MR_API mr_status mr_subdivide_frame(mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache,
     mr_subdivide_result *result) MR_WARN_UNUSED;
 
-/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1.
- */
+/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1. */
 MR_API mr_status mr_equalize_frame(
     mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache) MR_WARN_UNUSED;
 
 /* Models from nothing: mr-make */
 
 typedef enum mr_solid {
-	MR_SPHERE,
-	MR_TORUS,
-	MR_CUBE,
-	MR_PLANE,
-	MR_CYLINDER,
-	MR_KNOT,
-	MR_BUMPY,
-	MR_BOXES,
-	MR_SOLIDS
+	MR_SPHERE, MR_TORUS, MR_CUBE, MR_PLANE, MR_CYLINDER, MR_KNOT, MR_BUMPY, MR_BOXES, MR_SOLIDS
 } mr_solid;
 
 typedef struct mr_make_opts {
@@ -720,9 +691,7 @@ MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame
 
 /* Measuring: mr-info */
 
-typedef struct mr_box {
-	mr_v3 min, max;
-} mr_box;
+typedef struct mr_box { mr_v3 min, max; } mr_box;
 
 /*
  * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
@@ -842,9 +811,8 @@ MR_API mr_status mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, con
 
 /*
  * Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.
- * mr_judge compares the surface that a tool made or moved with what it was.  least: NULL, or of a sequence,
- * at first 0: nothing is judged that has moved by less, and *least becomes twice the largest distance that
- * was.
+ * mr_judge compares the surface that a tool made or moved with what it was.  least: NULL, or of a sequence, at first
+ * 0: nothing is judged that has moved by less, and *least becomes twice the largest distance that was.
  */
 MR_API mr_status mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least) MR_WARN_UNUSED;
 
@@ -863,9 +831,9 @@ typedef struct mr_render_opts {
 	const char *materials; /* folder of files of materials, which are drawn; NULL: none */
 	bool ranged;           /* numbers low to high span the colours; else least to greatest of the shot */
 	double low, high;
-	bool same;      /* a sheet is one shot; else each key frame begins one */
-	size_t columns; /* of a sheet; 0: so that it is about 3 by 2 */
-	bool wire;      /* draw edges */
+	bool same;         /* a sheet is one shot; else each key frame begins one */
+	size_t columns;    /* of a sheet; 0: so that it is about 3 by 2 */
+	bool wire;         /* draw edges */
 } mr_render_opts;
 
 #define MR_RENDER_DEFAULTS                                                                                   \
@@ -891,9 +859,8 @@ typedef struct mr_map_opts {
 typedef struct mr_map_result {
 	size_t level, width, height; /* the last two in texels */
 	double low, high;
-	size_t clipped,
-	    turned;            /* written: texels of heights out of the range, of normals away from control */
-	size_t between, seams; /* read: vertices on no texel, and of other heights across a seam */
+	size_t clipped, turned; /* written: texels of heights out of the range, of normals away from control */
+	size_t between, seams;  /* read: vertices on no texel, and of other heights across a seam */
 } mr_map_result;
 
 /* Writes NAME-height.png, NAME-normal.png and NAME.mtl, which names them, and gives control a material,
