@@ -535,9 +535,8 @@ typedef struct mr_volume_result {
 	size_t grid;           /* cells along the longest side of the points' box */
 	size_t rounds, turned; /* of the Poisson equation; normals that the first turned over */
 	double level, inside;  /* the indicator's value at the surface; share of the nodes */
-	size_t parts_dropped, cavities_filled, levels_alike; /* alike: around it, of the same topology */
+	size_t levels_alike; /* around it, of the same topology */
 	double euler, euler_beside; /* Euler number; that of a level nearby which is not alike */
-	double seconds_planes, seconds_flood, seconds_indicator, seconds_level, seconds_isosurface;
 } mr_volume_result;
 
 typedef struct mr_wrap_result {
@@ -548,7 +547,6 @@ typedef struct mr_wrap_result {
 	size_t unreached;              /* places beyond five such distances, outliers too */
 	size_t loops, openings, holes; /* of the boundary; left open; closed */
 	mr_gaps gaps;
-	double seconds_pull, seconds_volume, seconds_remesh, seconds_settle, seconds_measure;
 	mr_volume_result volume;
 } mr_wrap_result;
 

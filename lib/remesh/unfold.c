@@ -42,11 +42,11 @@ is_on_curve(const mr_dyn *d, uint32_t v)
 
 /* Half of the way to the middle of the neighbours. */
 static void
-draw_in(mr_dyn *d, uint32_t v, bool tips)
+draw_in(mr_dyn *d, uint32_t v)
 {
 	mr_v3 p;
 
-	if (d->kind[v] != MR_SMOOTH && (!tips || is_on_curve(d, v)))
+	if (d->kind[v] != MR_SMOOTH && is_on_curve(d, v))
 		return;
 	p = mr_lerp(0.5, d->p[v], mr_dyn_middle_around(d, v));
 	if (!makes_a_needle(d, v, p))
@@ -54,7 +54,7 @@ draw_in(mr_dyn *d, uint32_t v, bool tips)
 }
 
 void
-mr_unfold(mr_dyn *d, bool tips)
+mr_unfold(mr_dyn *d)
 {
 	bool folded = true;
 
@@ -64,10 +64,10 @@ mr_unfold(mr_dyn *d, bool tips)
 			if (mr_dyn_face_dead(d, h / 3) || h > d->twin[h] || !is_folded(d, h))
 				continue;
 			folded = true;
-			draw_in(d, d->v[h], tips);
-			draw_in(d, mr_dyn_to(d, h), tips);
-			draw_in(d, mr_dyn_apex(d, h), tips);
-			draw_in(d, mr_dyn_apex(d, d->twin[h]), tips);
+			draw_in(d, d->v[h]);
+			draw_in(d, mr_dyn_to(d, h));
+			draw_in(d, mr_dyn_apex(d, h));
+			draw_in(d, mr_dyn_apex(d, d->twin[h]));
 		}
 	}
 }

@@ -8,10 +8,10 @@
 
 /*
  * Draws the vertices at edges that are near a fold (mesh/fold.h) towards the middle of their neighbours,
- * until none is left or it has been done 10 times.  Curves stay, tips do unless `tips`, and so does what
+ * until none is left or it has been done 10 times.  Curves stay, and so does what
  * would become a needle.  Where a limb is thinner than an edge a mesh of such edges may fold: there the
  * surface gives way.
  */
-void mr_unfold(mr_dyn *d, bool tips);
+void mr_unfold(mr_dyn *d);
 
 #endif

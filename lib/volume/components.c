@@ -203,7 +203,7 @@ is_supported(const mr_volume_cloud *s, const runs *r, const tally *t, uint32_t p
 /* Whether the runs of each part, by its root, are inside in the end; a part that is dropped becomes what is
  * around it, which has the lower root: the run before its first. */
 static void
-judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool **inside, mr_cleaning *c)
+judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool **inside)
 {
 	bool *in = MR_NEW_ZERO(ctx, r->n, bool);
 	uint32_t largest = 0;
@@ -214,15 +214,9 @@ judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool
 				largest = r->part[k];
 	for (size_t row = 0; row < rows_of(r->g); row++)
 		for (uint32_t k = (uint32_t)r->first[row] + 1; k < r->first[row + 1]; k++) {
-			bool own = is_inside(r, row, k);
-			if (r->part[k] != k || k == r->part[0])
-				continue;
-			in[k] = own;
-			if (k != largest && !is_supported(s, r, t, k)) {
-				in[k] = in[r->part[k - 1]];
-				c->parts += own;
-				c->cavities += !own;
-			}
+			if (r->part[k] == k && k != r->part[0])
+				in[k] = k == largest || is_supported(s, r, t, k) ? is_inside(r, row, k)
+				                                                 : in[r->part[k - 1]];
 		}
 	*inside = in;
 }
@@ -238,10 +232,9 @@ turn_runs(const runs *r, const bool *inside, mr_filled *in)
 }
 
 mr_status
-mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in, mr_cleaning *c)
+mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_cleaning made = { 0, 0 };
 	bool *inside;
 	tally t;
 	runs r;
@@ -249,9 +242,8 @@ mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in, mr_cleanin
 	MR_TRY(find_runs(ctx, in, &r));
 	join_runs(&r);
 	count_all(ctx, s, &r, &t);
-	judge(ctx, s, &r, &t, &inside, &made);
+	judge(ctx, s, &r, &t, &inside);
 	turn_runs(&r, inside, in);
-	*c = made;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -28,7 +28,6 @@ typedef struct leveling {
 	double rise;      /* of the indicator */
 	float offset;     /* of a level from that */
 	mr_filled at;     /* what is inside at it, cleaned */
-	mr_cleaning *c;   /* what that left out */
 	int8_t part[256]; /* of each cube */
 	int64_t *sum;     /* of each layer of cubes: what it has of half the Euler number */
 } leveling;
@@ -144,7 +143,7 @@ try_level(mr_ctx *ctx, leveling *l, int level, int64_t *euler)
 {
 	l->offset = (float)offset_of(l, level);
 	mr_parallel(ctx, l->g->n[2], 1, mark_layers, l);
-	MR_TRY(mr_volume_clean(ctx, l->s, &l->at, l->c));
+	MR_TRY(mr_volume_clean(ctx, l->s, &l->at));
 	*euler = count_euler(ctx, l);
 	return MR_OK;
 }
@@ -225,11 +224,11 @@ begin(mr_ctx *ctx, leveling *l)
 }
 
 mr_status
-mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f,
-    mr_cleaning *c, mr_volume_result *result)
+mr_volume_level(
+    mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f, mr_volume_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	leveling l = { .s = s, .g = g, .f = f, .rise = rise, .c = c };
+	leveling l = { .s = s, .g = g, .f = f, .rise = rise };
 	int64_t euler[LEVELS];
 	run r;
 

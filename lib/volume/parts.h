@@ -134,10 +134,6 @@ double mr_volume_at(const mr_grid *g, const float *u, mr_v3 p);
 
 /* ---- components.c ---- */
 
-typedef struct mr_cleaning {
-	size_t parts, cavities; /* dropped */
-} mr_cleaning;
-
 /* Which nodes of a grid are inside: bits, x in rows of whole words; none on the faces of the grid. */
 typedef struct mr_filled {
 	const mr_grid *g;
@@ -152,7 +148,7 @@ void mr_filled_new(mr_ctx *ctx, const mr_grid *g, mr_filled *in);
  * Turns parts of the inside, and cavities, whose walls have few points for their size; the largest part
  * stays.
  */
-mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in, mr_cleaning *c);
+mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in);
 
 /* ---- level.c ---- */
 
@@ -161,7 +157,7 @@ mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in, 
  * the surface, the unit of f.  Fills the result's euler, levels_alike and, where these are not all,
  * euler_beside.
  */
-mr_status mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f,
-    mr_cleaning *c, mr_volume_result *result);
+mr_status mr_volume_level(
+    mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f, mr_volume_result *result);
 
 #endif

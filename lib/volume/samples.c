@@ -99,7 +99,7 @@ mr_volume_samples(
 			return mr_advise(ctx, MR_THIN_OUT,
 			    mr_fail(ctx, MR_ERANGE,
 				"%zu points lie so far apart, for how near their neighbours are, that the "
-			        "grid "
+				"grid "
 				"tells %zu of them",
 				n, s->n));
 		MR_TRY(check(ctx, s, n));

@@ -519,23 +519,13 @@ begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
 static mr_status
 fill_field(mr_ctx *ctx, volume *v, float *f)
 {
-	double start = mr_seconds();
-	mr_cleaning c;
 	mr_grid_multigrid m;
 
 	MR_TRY(v->side.toward ? orient_by_sides(ctx, v) : orient_by_flood(ctx, v, f));
-	v->found.seconds_flood = mr_seconds() - start;
-	start = mr_seconds();
 	mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m);
 	solve_indicator(ctx, v, &m);
-	v->found.seconds_indicator = mr_seconds() - start;
-	start = mr_seconds();
 	MR_TRY(make_level(ctx, v, &m));
-	MR_TRY(mr_volume_level(ctx, &v->s, &v->grid[0], v->found.level, f, &c, &v->found));
-	v->found.parts_dropped = c.parts;
-	v->found.cavities_filled = c.cavities;
-	v->found.seconds_level = mr_seconds() - start;
-	return MR_OK;
+	return mr_volume_level(ctx, &v->s, &v->grid[0], v->found.level, f, &v->found);
 }
 
 static void
@@ -696,7 +686,6 @@ mr_status
 mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out,
     mr_volume_result *result)
 {
-	double start = mr_seconds();
 	size_t places;
 	volume v;
 	mr_mark mark;
@@ -708,20 +697,17 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	mr_unmeasured(&v.found, sizeof v.found);
 	v.side.toward = NULL;
 	MR_TRY(take_points(ctx, point, n, opts, &places, &v));
-	v.found.seconds_planes = mr_seconds() - start;
 	MR_TRY(begin(ctx, opts, places, &v));
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
 	mark = mr_mark_take(ctx);
 	MR_TRY(fill_field(ctx, &v, f));
 	mr_mark_release(ctx, mark);
-	start = mr_seconds();
 	MR_TRY(mr_isosurface(ctx, &v.grid[0], f, &m));
 	if (m.nf == 0)
 		return mr_fail(ctx, MR_EMESH, "%zu points enclose nothing at a grid of %zu x %zu x %zu nodes",
 		    v.s.n, v.grid[0].n[0], v.grid[0].n[1], v.grid[0].n[2]);
 	m.name = "volume";
 	*out = m;
-	v.found.seconds_isosurface = mr_seconds() - start;
 	if (result)
 		*result = report(&v, f);
 	return MR_OK;

@@ -90,26 +90,21 @@ mr_status
 mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
 {
 	mr_mesh m = mr_dyn_view(&w->d, "control");
-	double start = mr_seconds();
 
 	w->folds = mr_count_folds(ctx, &m, w->d.twin);
-	MR_TRY(mr_wrap_measure(ctx, cloud, &m, MR_WRAP_SAMPLES, &w->cover));
-	w->found.seconds_measure = mr_seconds() - start;
-	return MR_OK;
+	return mr_wrap_measure(ctx, cloud, &m, MR_WRAP_SAMPLES, &w->cover);
 }
 
 mr_status
 mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w)
 {
 	mr_v3 *home = MR_NEW(ctx, w->d.nv, mr_v3);
-	double start = mr_seconds();
 
 	memcpy(home, w->d.p, w->d.nv * sizeof *home);
 	w->found.iterations = o->iterations ? o->iterations : ITERATIONS;
 	MR_TRY(mr_wrap_settle(ctx, cloud, o, w->found.iterations, &w->d));
-	w->found.seconds_settle = mr_seconds() - start;
 	for (int round = 0;; round++) {
-		mr_unfold(&w->d, true);
+		mr_unfold(&w->d);
 		MR_TRY(mr_wrap_assess(ctx, cloud, w));
 		if (w->cover.crossings == 0 || round == PARTINGS)
 			return MR_OK;

@@ -251,7 +251,7 @@ mr_wrap_settle_open(
 {
 	MR_TRY(mr_wrap_remesh(ctx, m, mr_wrap_length(cloud, o), d));
 	MR_TRY(mr_wrap_settle(ctx, cloud, o, SETTLES, d));
-	mr_unfold(d, true);
+	mr_unfold(d);
 	return MR_OK;
 }
 

@@ -26,7 +26,6 @@ static mr_status
 pull(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool guarded, mr_wrap *c)
 {
 	size_t iterations = o->iterations ? o->iterations : ITERATIONS;
-	double start = mr_seconds();
 
 	for (size_t i = 0; i < iterations; i++) {
 		MR_TRY(mr_wrap_project(ctx, cloud, o->alpha, guarded, &c->d));
@@ -34,7 +33,6 @@ pull(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool guarde
 		mr_progress(ctx, "wrapping", (double)(i + 1) / (double)iterations);
 	}
 	c->found.iterations = iterations;
-	c->found.seconds_pull = mr_seconds() - start;
 	return MR_OK;
 }
 
@@ -70,7 +68,7 @@ wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool g
 	MR_TRY(mr_wrap_box(ctx, cube_around(cloud->box), (size_t[]){ r, r, r }, &cube));
 	MR_TRY(mr_wrap_dyn(ctx, &cube, &c->d));
 	MR_TRY(pull(ctx, cloud, o, guarded, c));
-	mr_unfold(&c->d, true);
+	mr_unfold(&c->d);
 	return mr_wrap_assess(ctx, cloud, c);
 }
 
@@ -78,15 +76,11 @@ static mr_status
 wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	mr_volume_opts volume = { o->grid, &cloud->sampling, cloud->sides };
-	double start = mr_seconds(), middle;
 	mr_mesh m;
 
 	c->found.method = MR_WRAP_VOLUME;
 	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m, &c->found.volume));
-	middle = mr_seconds();
-	c->found.seconds_volume = middle - start;
 	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
-	c->found.seconds_remesh = mr_seconds() - middle;
 	MR_TRY(mr_wrap_finish(ctx, cloud, o, c));
 	return mr_wrap_open(ctx, cloud, o, c);
 }
@@ -247,7 +241,7 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 	MR_TRY(mr_wrap_dyn(ctx, start, &c.d));
 	MR_TRY(pull(ctx, cloud, o, true, &c));
 	MR_TRY(mr_wrap_settle(ctx, cloud, o, TEMPLATE_SETTLES, &c.d));
-	mr_unfold(&c.d, true);
+	mr_unfold(&c.d);
 	MR_TRY(mr_wrap_assess(ctx, cloud, &c));
 	report_cover(ctx, cloud, &c);
 	put_result(ctx, cloud, &c, result);
