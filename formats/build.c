@@ -200,29 +200,32 @@ bare_name(const mr_builder *b, mr_marking what, const char *name, size_t bytes)
 	return (mr_lines){ name, bytes };
 }
 
+/* The number of a cleaned name; `own`: a new one in any case. */
+static uint32_t
+number_of(mr_builder *b, mr_name_table *names, mr_lines bare, bool own)
+{
+	size_t bytes;
+
+	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
+	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
+	return own ? mr_name_add(b->ctx, names, b->clean, bytes)
+	           : mr_name_number(b->ctx, names, b->clean, bytes);
+}
+
 void
 mr_build_library(mr_builder *b, const char *name, size_t bytes)
 {
 	mr_lines bare = bare_name(b, MR_MATERIAL, name, bytes);
 
-	if (bare.bytes == 0)
-		return;
-	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
-	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
-	mr_name_number(b->ctx, &b->libraries, b->clean, bytes);
+	if (bare.bytes)
+		number_of(b, &b->libraries, bare, false);
 }
 
 void
 mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, bool own)
 {
-	mr_lines bare = bare_name(b, what, name, bytes);
-	mr_marks *k = &b->marks[what];
-
 	start_marks(b, what);
-	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
-	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
-	k->current = own ? mr_name_add(b->ctx, &k->names, b->clean, bytes)
-	                 : mr_name_number(b->ctx, &k->names, b->clean, bytes);
+	b->marks[what].current = number_of(b, &b->marks[what].names, bare_name(b, what, name, bytes), own);
 }
 
 void

@@ -303,10 +303,7 @@ mr_off_write(mr_sink *s, const mr_model *m)
 	mr_print(s, "%s%s%sOFF\n", m->texcoord ? "ST" : "", m->color ? "C" : "", m->normal ? "N" : "");
 	mr_print(s, "%zu %zu 0\n", m->nv, faces.count);
 	mr_vertex_parts(m, part);
-	for (size_t i = 0; i < m->nv; i++) {
-		mr_put_parts(s, part, 4, i, true);
-		mr_end_row(s);
-	}
+	mr_put_rows(s, part, 4, m->nv, true);
 	for (size_t f = 0; f < faces.count; f++) {
 		mr_sink_fill(s, mr_count_write(mr_sink_room(s),
 				    mr_polygon_begin(&faces, f + 1) - mr_polygon_begin(&faces, f)));

@@ -92,11 +92,7 @@ put(mr_sink *s, const mr_model *m, bool text)
 	mr_faces_of(s, m, &w.faces);
 	w.bytes = w.faces.most * 2 <= UINT8_MAX;
 	put_header(&w);
-	for (size_t i = 0; i < m->nv; i++) {
-		mr_put_parts(s, w.part, w.vertex_parts, i, text);
-		if (text)
-			mr_end_row(s);
-	}
+	mr_put_rows(s, w.part, w.vertex_parts, m->nv, text);
 	for (size_t i = 0; i < w.faces.count; i++)
 		put_face(&w, i);
 }

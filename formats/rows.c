@@ -249,3 +249,13 @@ mr_end_row(mr_sink *s)
 {
 	s->buffer[s->used - 1] = '\n';
 }
+
+void
+mr_put_rows(mr_sink *s, const mr_part *part, size_t parts, size_t n, bool text)
+{
+	for (size_t i = 0; i < n; i++) {
+		mr_put_parts(s, part, parts, i, text);
+		if (text)
+			mr_end_row(s);
+	}
+}

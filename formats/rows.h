@@ -93,4 +93,7 @@ void mr_put_parts(mr_sink *s, const mr_part *part, size_t parts, size_t i, bool 
 /* In text, the last blank of a row becomes its newline. */
 void mr_end_row(mr_sink *s);
 
+/* n rows. */
+void mr_put_rows(mr_sink *s, const mr_part *part, size_t parts, size_t n, bool text);
+
 #endif

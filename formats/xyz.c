@@ -476,15 +476,6 @@ mr_xyz_sniff(const unsigned char *data, size_t size)
 
 /* ---- written ---- */
 
-static void
-put_rows(mr_sink *s, const mr_part *part, size_t parts, size_t n)
-{
-	for (size_t i = 0; i < n; i++) {
-		mr_put_parts(s, part, parts, i, true);
-		mr_end_row(s);
-	}
-}
-
 /* A line of names where there are colours, which could be normals. */
 mr_status
 mr_xyz_write(mr_sink *s, const mr_model *m)
@@ -496,7 +487,7 @@ mr_xyz_write(mr_sink *s, const mr_model *m)
 		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
 	mr_vertex_parts(m, part);
 	part[2].width = 3;
-	put_rows(s, part, 3, m->nv);
+	mr_put_rows(s, part, 3, m->nv, true);
 	return MR_OK;
 }
 
@@ -517,7 +508,7 @@ mr_pts_write(mr_sink *s, const mr_model *m)
 	                            : (mr_part){ m->color ? &none : NULL, 'd', 1, 0, "" };
 	part[2].width = 3;
 	mr_print(s, "%zu\n", m->nv);
-	put_rows(s, part, 3, m->nv);
+	mr_put_rows(s, part, 3, m->nv, true);
 	return MR_OK;
 }
 
