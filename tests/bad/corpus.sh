@@ -18,7 +18,7 @@ assimp_formatDetection|3 1
 assimp_invalid.off|line 7: vertex 20 of 3
 assimp_issue623.ply|line 15: a list of length 7.9418
 assimp_malformed.obj|line 23: vertex 12 of 8
-assimp_malformed2.obj|8 10 and a remark
+assimp_malformed2.obj|8 10
 assimp_multiple_spaces.obj|4 1 and a remark
 assimp_number_formats.obj|line 11: a vertex is '3.1+e2', not a number
 assimp_only_a_part_of_vertexcolors.obj|5 3 and a remark
