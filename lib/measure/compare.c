@@ -177,7 +177,7 @@ measure_faces(void *arg, size_t begin, size_t end)
 }
 
 /* Runs `body` over count things and adds up, in order. */
-static mr_status
+static void
 measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -189,7 +189,6 @@ measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
 	for (size_t i = 0; i < grains; i++)
 		sums_join(total, &j->sums[i]);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* ---- branch and bound ---- */
@@ -347,7 +346,7 @@ used_vertices(mr_ctx *ctx, const mr_mesh *m)
 }
 
 /* From a mesh with area: its vertices for the extremes, pieces of its faces for the integrals. */
-static mr_status
+static void
 measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, double scale, mr_distance *d)
 {
 	size_t samples = opts->samples ? opts->samples : SAMPLES;
@@ -355,28 +354,26 @@ measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, d
 
 	j->bound = MR_NEW(ctx, j->a->nf, double);
 	j->piece_area = area / (double)samples;
-	MR_TRY(measure(ctx, j, j->a->nv, measure_vertices, &vertices));
-	MR_TRY(measure(ctx, j, j->a->nf, measure_faces, &faces));
+	measure(ctx, j, j->a->nv, measure_vertices, &vertices);
+	measure(ctx, j, j->a->nf, measure_faces, &faces);
 	*d = distance_of(&faces);
 	d->min = fmin(d->min, vertices.min);
 	d->max = fmax(d->max, vertices.max);
 	bound_max(ctx, j, opts, scale, d);
-	return MR_OK;
 }
 
-static mr_status
+static void
 measure_points(mr_ctx *ctx, job *j, mr_distance *d)
 {
 	sums s;
 
-	MR_TRY(measure(ctx, j, j->a->nv, measure_vertices, &s));
+	measure(ctx, j, j->a->nv, measure_vertices, &s);
 	*d = distance_of(&s);
-	return MR_OK;
 }
 
 /* From a to b, which have faces, of area or not.  alike: their faces have the same corners by number.  scale:
  * a length that bounds are rounded by. */
-static mr_status
+static void
 compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, bool alike,
     double scale, mr_distance *out)
 {
@@ -391,11 +388,10 @@ compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compar
 		j.used = used_vertices(ctx, a);
 	}
 	if (area > 0)
-		MR_TRY(measure_surface(ctx, &j, opts, area, scale, out));
+		measure_surface(ctx, &j, opts, area, scale, out);
 	else
-		MR_TRY(measure_points(ctx, &j, out));
+		measure_points(ctx, &j, out);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* ---- both, and of one connectivity ---- */
@@ -491,8 +487,8 @@ compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *
 	MR_TRY(mr_check_number(ctx, "tolerance", o->tolerance, 1e-9, 1));
 	MR_TRY(with_faces(ctx, a, &fa));
 	MR_TRY(with_faces(ctx, b, &fb));
-	MR_TRY(compare_one_way(ctx, &fa, &fb, o, c.corresponds, scale, &c.ab));
-	MR_TRY(compare_one_way(ctx, &fb, &fa, o, c.corresponds, scale, &c.ba));
+	compare_one_way(ctx, &fa, &fb, o, c.corresponds, scale, &c.ab);
+	compare_one_way(ctx, &fb, &fa, o, c.corresponds, scale, &c.ba);
 	c.both = join(&c.ab, &c.ba);
 	if (c.corresponds) {
 		measure_deviation(a, b, &c.deviation);

@@ -82,7 +82,7 @@ kind_color(mr_panel *p, uint32_t kind)
 }
 
 /* Colours, or numbers of kinds, which need no range to become colours. */
-static mr_status
+static void
 take_colors(mr_ctx *keep, const mr_column *c, mr_panel *p)
 {
 	mr_rgb *color = MR_NEW(keep, c->rows, mr_rgb);
@@ -95,7 +95,6 @@ take_colors(mr_ctx *keep, const mr_column *c, mr_panel *p)
 	}
 	p->subject.color = color;
 	p->subject.nearest = !own;
-	return MR_OK;
 }
 
 /* Colours the panel by the column, if its layer has it. */
@@ -123,8 +122,9 @@ take_column(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, const char *name, mr_pan
 	c = mr_frame_find(frame, p->layer, name); /* decoded */
 	if ((c->shape.type == 'b' && c->shape.components >= 3) ||
 	    (c->shape.type == 'u' && c->shape.components == 1))
-		return take_colors(keep, c, p);
-	take_numbers(keep, c, p);
+		take_colors(keep, c, p);
+	else
+		take_numbers(keep, c, p);
 	return MR_OK;
 }
 
@@ -135,12 +135,11 @@ push_panel(mr_ctx *keep, mr_gallery *g, const mr_panel *p)
 	g->panel[g->panels++] = *p;
 }
 
-static mr_status
+static void
 push_frame(mr_ctx *keep, mr_gallery *g, const mr_shown *f)
 {
 	MR_RESERVE(keep, g->frame, g->frames, 1, &g->frame_room);
 	g->frame[g->frames++] = *f;
-	return MR_OK;
 }
 
 static mr_status
@@ -195,7 +194,7 @@ mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const 
 		status = mr_fail(ctx, MR_EMISSING, "no layer that is drawn has a column %s", opts->color);
 	shown.count = g->panels - shown.first;
 	if (status == MR_OK)
-		status = push_frame(keep, g, &shown);
+		push_frame(keep, g, &shown);
 	if (status != MR_OK)
 		g->panels = shown.first;
 	return status;

@@ -219,7 +219,7 @@ draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several
 	write_left(&s, size, PALE, false);
 }
 
-static mr_status
+static void
 draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool several,
     const mr_render_opts *o, mr_image *image)
 {
@@ -227,10 +227,9 @@ draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool
 	mr_subject subject;
 
 	color_subject(ctx, shot, p, &subject);
-	MR_TRY(mr_raster(ctx, &subject, &shot->camera, o->wire, image));
+	mr_raster(ctx, &subject, &shot->camera, o->wire, image);
 	if (o->labels)
 		draw_label(image, shot, p, several, o);
-	return MR_OK;
 }
 
 /* Draws a frame's panels side by side into the image at (x, y). */
@@ -242,7 +241,7 @@ draw_frame(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, const mr_shown
 		mr_mark mark = mr_mark_take(ctx);
 		mr_image panel;
 		MR_TRY(mr_image_new(ctx, o->width, o->height, PAPER, &panel));
-		MR_TRY(draw_panel(ctx, g, shot, f->first + i, f->count > 1, o, &panel));
+		draw_panel(ctx, g, shot, f->first + i, f->count > 1, o, &panel);
 		mr_image_copy(image, x + i * o->width, y, &panel);
 		mr_mark_release(ctx, mark);
 	}

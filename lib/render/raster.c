@@ -218,12 +218,11 @@ covering_radius(const mr_raster_view *v)
 	return fmin(fmax(1.1 * sqrt(area / (double)v->subject->mesh.nv), 1), 8);
 }
 
-mr_status
+void
 mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_raster_view v = { .subject = subject, .camera = camera, .wire = wire, .image = image };
-	mr_status status;
 
 	v.w = image->width * SAMPLES;
 	v.h = image->height * SAMPLES;
@@ -235,7 +234,6 @@ mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool 
 	mr_parallel(ctx, subject->mesh.nv, 4096, place_vertices, &v);
 	fill_bands(ctx, &v);
 	mr_parallel(ctx, (v.h + BAND - 1) / BAND, 1, draw_bands, &v);
-	status = mr_shade(ctx, &v);
+	mr_shade(ctx, &v);
 	mr_mark_release(ctx, mark);
-	return status;
 }

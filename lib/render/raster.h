@@ -28,7 +28,6 @@ typedef struct mr_subject {
  * Draws the subject over what the image shows; wire: with its edges.  Workspace: about 50 bytes a pixel,
  * 50 a vertex and 20 a face, released.
  */
-mr_status
-mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image);
+void mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image);
 
 #endif

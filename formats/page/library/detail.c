@@ -1,4 +1,5 @@
-/* Surfaces that handles pose, for the page: places by a response, and the detail over a base, as of mr-decode. */
+/* Surfaces that handles pose, for the page: places by a response, and the detail over a base, as of
+ * mr-decode. */
 #include "edit/detail.h"
 #include "edit/handles.h"
 #include "formats/page/library/export.h"
@@ -32,30 +33,24 @@ whole_bary(mr_ctx *ctx, const double (*bary)[2], size_t n)
 	return b;
 }
 
-static mr_status
-begin(detail *d, const parts *p)
-{
-	mr_v3 *normal = MR_NEW(&d->ctx, p->nv, mr_v3);
-
-	d->base = (mr_mesh){ "base", p->rest, p->triangles, p->nv, p->nf };
-	mr_incidence_build(&d->ctx, &d->base, &d->inc);
-	mr_vertex_normals(&d->ctx, &d->base, &d->inc, normal);
-	d->of = (mr_detail){ p->n, { p->face, whole_bary(&d->ctx, p->bary, p->n) }, p->height, p->offset, p->rest,
-		normal };
-	return MR_OK;
-}
-
 /* NULL where there is no memory. */
 MR_EXPORT(detail_new)
 detail *
 detail_new(const parts *p)
 {
 	detail *d = calloc(1, sizeof *d);
+	mr_v3 *normal;
 
 	if (!d)
 		return NULL;
 	mr_ctx_init(&d->ctx, 1);
-	return begin(d, p) == MR_OK ? d : NULL;
+	normal = MR_NEW(&d->ctx, p->nv, mr_v3);
+	d->base = (mr_mesh){ "base", p->rest, p->triangles, p->nv, p->nf };
+	mr_incidence_build(&d->ctx, &d->base, &d->inc);
+	mr_vertex_normals(&d->ctx, &d->base, &d->inc, normal);
+	d->of = (mr_detail){ p->n, { p->face, whole_bary(&d->ctx, p->bary, p->n) }, p->height, p->offset,
+		p->rest, normal };
+	return d;
 }
 
 MR_EXPORT(detail_free)
