@@ -81,9 +81,10 @@ mr_same_side(const mr_sample_cloud *c, uint32_t point, mr_v3 n)
 /* Leaves out the sights of points that belong to sheets that look the other way.  Returns how many stay. */
 size_t mr_sights_near_sheet(const mr_sample_cloud *c, mr_v3 n, mr_sight *s, size_t count);
 
-/* Heights found by one search; hit says where.  r: gets the figures of it. */
+/* Heights found by one search; hit says where.  nearest: the point nearest to each vertex, the caller's.  r:
+ * gets the figures of it. */
 mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
-    double *height, bool *hit, mr_sample_result *r);
+    double *height, bool *hit, uint32_t *nearest, mr_sample_result *r);
 /* c: the mesh's vertices, placed. */
 void mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
     double *height, bool *hit, mr_sample_result *r);
@@ -124,9 +125,10 @@ void mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, d
 mr_status mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n,
     const mr_mesh *surface, const double *height, size_t steps, double *factor);
 
-/* Fits the heights to the points; those that were hit are also pulled to what they are.  e: of the domain. */
-mr_status
-mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_fit_weights *weights,
-    size_t passes, mr_heights *e, const bool *hit, double *height, mr_sample_result *r);
+/* Fits the heights to the points; those that were hit are also pulled to what they are, by how many points
+ * there are where `nearest` tells which is nearest to each vertex (NULL: alike).  e: of the domain. */
+mr_status mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c,
+    const mr_fit_weights *weights, size_t passes, mr_heights *e, const bool *hit, const uint32_t *nearest,
+    double *height, mr_sample_result *r);
 
 #endif

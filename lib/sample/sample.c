@@ -201,6 +201,7 @@ find_heights(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr
 	       k = opts->neighbours < distinct ? opts->neighbours : distinct;
 	mr_mark mark = mr_mark_take(ctx);
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
+	uint32_t *nearest = robust ? NULL : MR_NEW(ctx, d->m.nv, uint32_t);
 	mr_heights e;
 
 	if (robust)
@@ -208,10 +209,10 @@ find_heights(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr
 	memset(hit, 0, d->m.nv * sizeof *hit);
 	memset(height, 0, d->m.nv * sizeof *height);
 	if (!robust)
-		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
+		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, nearest, r));
 	leave_creases(ctx, d, hit);
 	MR_TRY(mend(ctx, d, &e, hit, height, r));
-	MR_TRY(mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height, r));
+	MR_TRY(mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, nearest, height, r));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -293,7 +294,7 @@ mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 	mr_sample_rays(ctx, d, mesh, &c, height, hit, &r);
 	leave_isolated(ctx, &c);
 	MR_TRY(mend(ctx, d, &e, hit, height, &r));
-	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height, &r));
+	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, NULL, height, &r));
 	report_filled(ctx, d, false, &r);
 	mr_mark_release(ctx, mark);
 	if (result)

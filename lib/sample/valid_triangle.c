@@ -123,7 +123,8 @@ typedef struct search {
 	const double *dist2;
 	double *height;
 	bool *hit;
-	uint8_t *points; /* of mr_valid */
+	uint8_t *points;   /* of mr_valid */
+	uint32_t *nearest; /* point of each vertex */
 } search;
 
 /*
@@ -150,6 +151,7 @@ search_vertices(void *arg, size_t begin, size_t end)
 		mr_v3 normal = s->d->normal[v];
 		mr_bounds bounds;
 		mr_valid found;
+		s->nearest[v] = s->index[i * s->k];
 		s->hit[v] = false;
 		s->height[v] = 0;
 		s->points[v] = 0;
@@ -213,11 +215,11 @@ search_list(mr_ctx *ctx, const uint32_t *list, size_t n, search *s)
 /* Most vertices find their triangle among few points; all others look at all. */
 mr_status
 mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
-    double *height, bool *hit, mr_sample_result *r)
+    double *height, bool *hit, uint32_t *nearest, mr_sample_result *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *list = MR_NEW(ctx, d->m.nv, uint32_t);
-	search s = { .d = d, .c = c, .height = height, .hit = hit };
+	search s = { .d = d, .c = c, .height = height, .hit = hit, .nearest = nearest };
 	size_t missed = 0;
 
 	s.k = neighbours < FIRST ? neighbours : FIRST;
