@@ -7,7 +7,7 @@
 #include "edit/handles.h"
 #include "formats/bytes.h"
 #include "formats/formats.h"
-#include "formats/page_displaced.h"
+#include "subdivide/displaced.h"
 #include "subdivide/wavelet.h"
 
 #include <errno.h>
@@ -30,6 +30,16 @@ static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "m
 
 /* Texts that name the values of other columns. */
 static const char *const texts[] = { "groups", "objects", "materials", NULL };
+
+/* The displaced subdivision surface of a frame; zeroed: there is none. */
+typedef struct displaced {
+	bool there;
+	bool is_mesh; /* mesh is this surface on level `at`, and need not be stored */
+	size_t n, at; /* finest level; the one to show first */
+	const mr_loop *level;
+	const double *height;
+	double extent; /* of the control mesh: the largest side of its box */
+} displaced;
 
 /* Whether a comma list, or NULL for any, has the name. */
 static bool
@@ -55,7 +65,7 @@ is_posable(const mr_frame *f, const char *layers)
 
 /* The same of control, and the displaced surface with it; mr-pose goes by its regions where mesh has none. */
 static bool
-is_control_posable(const mr_frame *f, const mr_page_displaced *d)
+is_control_posable(const mr_frame *f, const displaced *d)
 {
 	return d->there && mr_layer_has(f, "control", "response") && mr_layer_has(f, "control", "region") &&
 	       !mr_layer_has(f, "mesh", "region") && !mr_layer_has(f, "mesh", "detail_height");
@@ -79,7 +89,7 @@ is_of_displaced(const mr_column *c)
 }
 
 static bool
-is_made(const mr_column *c, const mr_page_displaced *d)
+is_made(const mr_column *c, const displaced *d)
 {
 	return d->is_mesh && !strcmp(c->layer, "mesh") &&
 	       (!strcmp(c->name, "position") || !strcmp(c->name, "triangles"));
@@ -88,7 +98,7 @@ is_made(const mr_column *c, const mr_page_displaced *d)
 /* Places, and up to four numbers that can give colours; a surface's normals the page makes from its
  * triangles. */
 static bool
-is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_page_displaced *d)
+is_shown(const mr_frame *f, const mr_column *c, const char *layers, const displaced *d)
 {
 	bool surface = mr_layer_has(f, c->layer, "triangles");
 	bool control = d->there && !strcmp(c->layer, "control");
@@ -196,7 +206,7 @@ put_steps(mr_ctx *ctx, mr_frame *to, const mr_column *c, const whole_steps *s, m
  * adds the difference from what the level before predicts, which packs into less.
  */
 static mr_status
-put_heights(mr_ctx *ctx, mr_frame *to, const mr_column *height, const mr_page_displaced *d, mr_text *notes)
+put_heights(mr_ctx *ctx, mr_frame *to, const mr_column *height, const displaced *d, mr_text *notes)
 {
 	size_t n = d->level[d->n].nv;
 	double *x = MR_NEW(ctx, n, double), most = d->extent;
@@ -284,8 +294,8 @@ centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
  * are columns with what is no number.
  */
 static mr_status
-take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_displaced *d, mr_frame *to,
-    mr_text *notes)
+take_column(
+    mr_ctx *ctx, mr_frame *from, const mr_column *column, const displaced *d, mr_frame *to, mr_text *notes)
 {
 	mr_column c = *column;
 	double centre[3] = { 0 };
@@ -304,6 +314,83 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_
 	return steps.components ? put_steps(ctx, to, &c, &steps, notes) : mr_frame_pass(ctx, to, &c);
 }
 
+/* The level that has as many vertices and faces as the mesh; false: none. */
+static bool
+find_level(const displaced *d, const mr_mesh *mesh, size_t *at)
+{
+	for (size_t i = 0; i <= d->n; i++)
+		if (d->level[i].nv == mesh->nv && d->level[i].nf == mesh->nf) {
+			*at = i;
+			return true;
+		}
+	return false;
+}
+
+static mr_status
+make_mesh(mr_ctx *ctx, mr_frame *f, const displaced *d, mr_mesh *m)
+{
+	mr_domain domain;
+	mr_mesh control;
+	mr_v3 *p;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
+	mr_domain_on(ctx, &control, d->level, d->at, &domain);
+	p = MR_NEW(ctx, domain.m.nv, mr_v3);
+	mr_domain_displace(ctx, &domain, d->height, 1, p);
+	*m = domain.m;
+	m->p = p;
+	return MR_OK;
+}
+
+/* Whether mesh is, bit by bit, what mr-decode makes of the frame on one of the levels. */
+static mr_status
+compare_mesh(mr_ctx *ctx, mr_frame *f, displaced *d)
+{
+	mr_mesh mesh, made;
+	mr_mark mark;
+
+	MR_TRY(mr_layer_surface_or_points(ctx, f, "mesh", &mesh));
+	if (!find_level(d, &mesh, &d->at) ||
+	    memcmp(mesh.t, d->level[d->at].t, mesh.nf * sizeof *mesh.t) != 0) {
+		d->at = d->n;
+		return MR_OK;
+	}
+	mark = mr_mark_take(ctx);
+	MR_TRY(make_mesh(ctx, f, d, &made));
+	d->is_mesh = !memcmp(made.p, mesh.p, mesh.nv * sizeof *mesh.p);
+	if (!d->is_mesh)
+		d->at = d->n;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Control mesh and heights, checked as mr-decode does.  MR_EMISSING where they are not there. */
+static mr_status
+get_displaced(mr_ctx *ctx, mr_frame *f, displaced *d)
+{
+	displaced r = { .there = true };
+	mr_mesh control;
+	const uint8_t *mark;
+	mr_loop *level;
+	mr_box box;
+
+	if (!mr_frame_has_layer(f, "displacement"))
+		return mr_layer_missing(ctx, f, "displacement", "displacement");
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
+	MR_TRY(mr_displacement_get(ctx, f, &control, &r.n, &r.height));
+	level = MR_NEW(ctx, r.n + 1, mr_loop);
+	MR_TRY(mr_layer_crease(ctx, f, control.name, control.nf, &mark));
+	MR_TRY(mr_loop_levels_marked(ctx, &control, 180, mark, r.n, level));
+	box = mr_mesh_box(&control);
+	r.extent = fmax(box.max.x - box.min.x, fmax(box.max.y - box.min.y, box.max.z - box.min.z));
+	r.level = level;
+	r.at = r.n;
+	if (mr_layer_has(f, "mesh", "position"))
+		MR_TRY(compare_mesh(ctx, f, &r));
+	*d = r;
+	return MR_OK;
+}
+
 /* What is drawn must be a surface or points as any tool takes them: the page checks nothing. */
 static mr_status
 check_layer(mr_ctx *ctx, mr_frame *f, const char *layer)
@@ -316,21 +403,21 @@ check_layer(mr_ctx *ctx, mr_frame *f, const char *layer)
 /* The displaced surface that is asked for, or, without a list, the one that is there; mesh is stored where it
  * is to be posed, or wears pictures. */
 static mr_status
-find_displaced(mr_ctx *ctx, const mr_page *page, mr_frame *f, const char *list, mr_page_displaced *d)
+find_displaced(mr_ctx *ctx, const mr_page *page, mr_frame *f, const char *list, displaced *d)
 {
 	bool there = mr_layer_has(f, "control", "triangles") && mr_layer_has(f, "displacement", "height");
 
-	*d = (mr_page_displaced){ 0 };
+	*d = (displaced){ 0 };
 	if (list ? !is_listed("displacement", list) : !there)
 		return MR_OK;
-	MR_TRY(mr_page_displaced_get(ctx, f, d));
+	MR_TRY(get_displaced(ctx, f, d));
 	d->is_mesh = d->is_mesh && !is_posable(f, list) && !mr_page_can_wear(&page->pictures, f, "mesh");
 	return MR_OK;
 }
 
 /* Whether what was worked on last is the surface that the page makes. */
 static mr_status
-is_displaced_latest(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, bool *is)
+is_displaced_latest(mr_ctx *ctx, mr_frame *f, const displaced *d, bool *is)
 {
 	const char *latest;
 
@@ -340,7 +427,7 @@ is_displaced_latest(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, bool *
 }
 
 static mr_status
-check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const mr_page_displaced *d)
+check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const displaced *d)
 {
 	bool is_displaced;
 
@@ -411,8 +498,7 @@ is_as_encoded(mr_ctx *ctx, mr_frame *f, bool *is)
 }
 
 static mr_status
-take_columns(
-    mr_ctx *ctx, mr_frame *from, const bool *shown, const mr_page_displaced *d, mr_frame *to, mr_text *notes)
+take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, const displaced *d, mr_frame *to, mr_text *notes)
 {
 	for (size_t i = 0; i < from->count; i++) {
 		bool encoded = !strcmp(from->columns[i].name, "encoded"), same = false;
@@ -458,8 +544,8 @@ wear_pictures(mr_ctx *ctx, mr_frame *f, mr_page_pictures *pictures, bool *shown,
 
 /* How columns are stored, and the file, are told in a text of no layer, `page`. */
 static mr_status
-take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const mr_page_displaced *d,
-    mr_frame *to, mr_page_result *r)
+take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const displaced *d, mr_frame *to,
+    mr_page_result *r)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
 	mr_text notes = { .ctx = ctx };
@@ -533,16 +619,16 @@ mr_status
 mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_page_result *result)
 {
 	mr_frame shown = { .name = frame->name, .key = frame->key, .number = frame->number };
-	mr_page_displaced displaced;
+	displaced surface;
 
 	*result = (mr_page_result){ 0 };
-	MR_TRY(find_displaced(ctx, page, frame, layers, &displaced));
-	MR_TRY(check_layers(ctx, frame, layers, &displaced));
+	MR_TRY(find_displaced(ctx, page, frame, layers, &surface));
+	MR_TRY(check_layers(ctx, frame, layers, &surface));
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
-	if (is_control_posable(frame, &displaced))
+	if (is_control_posable(frame, &surface))
 		MR_TRY(check_control_posing(ctx, frame));
-	MR_TRY(take_frame(ctx, frame, page, layers, &displaced, &shown, result));
+	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown, result));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(send_frame(ctx, page, &shown));
 	page->frames++;
