@@ -1,6 +1,6 @@
 /*
  * poser.js -- what follows the handles, as mr-decode makes it when nothing moves any more: a base or a control mesh by
- * its response to them, lib/edit/pose_basis.c, and over it the mesh by its detail, or the displaced surface on the level
+ * its response to them, and over it the mesh by its detail (library/detail.c), or the displaced surface on the level
  * that is shown (mesh/levels.js).
  */
 import { library } from "../library/compile.js";
