@@ -5,7 +5,6 @@
 #include "base/disjoint_sets.h"
 #include "edit/deform_energy.h"
 #include "edit/deform_parts.h"
-#include "edit/handles.h"
 
 struct mr_deform {
 	mr_deform_opts opts;

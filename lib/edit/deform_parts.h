@@ -5,7 +5,7 @@
 #ifndef MR_EDIT_DEFORM_PARTS_H
 #define MR_EDIT_DEFORM_PARTS_H
 
-#include "edit/deform.h"
+#include "edit/deform_opts.h"
 
 /*
  * A model of parts that are held by different constraints would come apart.  Triangles between them that no

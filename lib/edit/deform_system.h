@@ -9,7 +9,7 @@
 #ifndef MR_EDIT_DEFORM_SYSTEM_H
 #define MR_EDIT_DEFORM_SYSTEM_H
 
-#include "edit/deform.h"
+#include "edit/deform_opts.h"
 
 /*
  * The part of a mesh that a local problem sees: chosen vertices and k rings around them.  A patch is a mesh

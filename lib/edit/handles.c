@@ -107,19 +107,6 @@ mr_pose_map(const mr_pose *pose, mr_v3 center, double share)
 	return t;
 }
 
-mr_regions
-mr_regions_of(mr_ctx *ctx, const uint32_t *region, size_t nv)
-{
-	mr_regions r = { .n = MR_REGION_HANDLE };
-
-	for (size_t v = 0; v < nv; v++)
-		r.n = region[v] < r.n ? r.n : (size_t)region[v] + 1;
-	r.count = MR_NEW_ZERO(ctx, r.n, size_t);
-	for (size_t v = 0; v < nv; v++)
-		r.count[region[v]]++;
-	return r;
-}
-
 mr_status
 mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region, mr_handles *h)
 {

@@ -19,14 +19,6 @@ mr_status mr_pose_check_shares(mr_ctx *ctx, const mr_pose *pose);
  * of the scale. */
 mr_affine mr_pose_map(const mr_pose *pose, mr_v3 center, double share);
 
-/* How many vertices each region has, of at least fixed and free ones; in the arena. */
-typedef struct mr_regions {
-	size_t n; /* the highest that some vertex has, and one */
-	size_t *count;
-} mr_regions;
-
-mr_regions mr_regions_of(mr_ctx *ctx, const uint32_t *region, size_t nv);
-
 /* The handles of a layer, by number; count 0: the number is not in use. */
 typedef struct mr_handles {
 	size_t n; /* highest number in use, and one */

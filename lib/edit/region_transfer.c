@@ -4,7 +4,6 @@
 
 #include "base/parallel.h"
 #include "edit/detail.h"
-#include "edit/handles.h"
 #include "space/bvh.h"
 #include "space/contact.h"
 

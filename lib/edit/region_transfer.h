@@ -5,7 +5,7 @@
 #ifndef MR_EDIT_REGION_TRANSFER_H
 #define MR_EDIT_REGION_TRANSFER_H
 
-#include "edit/deform.h"
+#include "edit/deform_opts.h"
 #include "space/source_map.h"
 
 /* True where the regions of the frame's layer are those of the mesh, not its own. */

@@ -3,7 +3,6 @@
 #include "edit/select.h"
 
 #include "base/text_file.h"
-#include "edit/handles.h"
 #include "edit/selection_file.h"
 #include "mesh/edges.h"
 #include "mesh/layers.h"

@@ -495,6 +495,19 @@ mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const ui
 	return MR_OK;
 }
 
+mr_regions
+mr_regions_of(mr_ctx *ctx, const uint32_t *region, size_t nv)
+{
+	mr_regions r = { .n = MR_REGION_HANDLE };
+
+	for (size_t v = 0; v < nv; v++)
+		r.n = region[v] < r.n ? r.n : (size_t)region[v] + 1;
+	r.count = MR_NEW_ZERO(ctx, r.n, size_t);
+	for (size_t v = 0; v < nv; v++)
+		r.count[region[v]]++;
+	return r;
+}
+
 mr_status
 mr_layer_crease(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const uint8_t **mark)
 {

@@ -59,6 +59,14 @@ void mr_layer_renumbered(mr_frame *f, const char *layer);
 /* The layer's regions, rows checked against nv, values below 2 + 65536. */
 mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region);
 
+/* How many vertices each region has, of at least fixed and free ones; in the arena. */
+typedef struct mr_regions {
+	size_t n; /* the highest that some vertex has, and one */
+	size_t *count;
+} mr_regions;
+
+mr_regions mr_regions_of(mr_ctx *ctx, const uint32_t *region, size_t nv);
+
 /* Which edges of a control mesh are marked to be sharp, 3 a face, 0 where one is not; NULL: of another layer,
  * and where no column says. */
 mr_status mr_layer_crease(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const uint8_t **mark);

@@ -59,15 +59,15 @@ done
 if command -v bash >/dev/null; then
 	answer=$(bash -c '. made/bash/mr-solve; COMP_WORDS=(mr-solve --solver = m)
 		COMP_CWORD=3; _mr_solve; echo "${COMPREPLY[@]}"
-		COMP_WORDS=(mr-solve --ver); COMP_CWORD=1; _mr_solve; echo "${COMPREPLY[@]}"')
+		COMP_WORDS=(mr-solve --verb); COMP_CWORD=1; _mr_solve; echo "${COMPREPLY[@]}"')
 	[ "$answer" = "multigrid
---verify --verbose --version" ] || bad "bash completes $answer"
+--verbose" ] || bad "bash completes $answer"
 fi
 if command -v fish >/dev/null; then
 	answer=$(HOME=$PWD fish -c \
-		'. made/fish/mr-solve.fish; complete -C "mr-solve -s mu"; complete -C "mr-solve --veri"' | cut -f1)
+		'. made/fish/mr-solve.fish; complete -C "mr-solve -s mu"; complete -C "mr-solve --flat"' | cut -f1)
 	[ "$answer" = "multigrid
---verify" ] || bad "fish completes $answer"
+--flatten" ] || bad "fish completes $answer"
 fi
 if command -v zsh >/dev/null; then
 	# What zsh would show is asked of a terminal of its own.
@@ -78,13 +78,13 @@ if command -v zsh >/dev/null; then
 			'; compinit -D -u; LISTMAX=0'
 		zpty -w shell 'bindkey "^I" complete-word; print READY'
 		zpty -r shell line '*READY*READY*'
-		zpty -w -n shell $'mr-solve --solver=mu\t --veri\t\n'
-		zpty -r shell line '*--verify*'
+		zpty -w -n shell $'mr-solve --solver=mu\t --flat\t\n'
+		zpty -r shell line '*--flatten*'
 		print -r -- "$line"
 		zpty -d shell
 	END
 	TERM=dumb timeout 30 zsh -f ask.zsh >answer 2>&1
-	grep -q -- '--solver=multigrid .*--verify' answer || { cat -v answer; bad "zsh does not complete"; }
+	grep -q -- '--solver=multigrid .*--flatten' answer || { cat -v answer; bad "zsh does not complete"; }
 fi
 
 # Twice the same tarball; and what it holds makes it again, without git.

@@ -40,7 +40,7 @@ solve_basis(mr_ctx *ctx, mr_frame *f, void *result)
 {
 	mr_solve_opts o = MR_SOLVE_DEFAULTS;
 
-	o.basis = o.verify = true;
+	o.basis = true;
 	return mr_solve_frame(ctx, f, &o, NULL, result);
 }
 
