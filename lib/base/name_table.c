@@ -15,8 +15,9 @@ hash_of(const char *s, size_t n)
 	return h ^ h >> 29;
 }
 
-size_t
-mr_name_length(const mr_name_table *n, size_t i)
+/* Bytes of name i. */
+static size_t
+length_of(const mr_name_table *n, size_t i)
 {
 	return (i + 1 < n->count ? n->start[i + 1] : n->bytes) - n->start[i] - 1;
 }
@@ -29,8 +30,7 @@ find_slot(const mr_name_table *n, const char *s, size_t bytes)
 
 	for (;; at = (at + 1) & (n->slots - 1)) {
 		uint32_t i = n->slot[at];
-		if (i == 0 ||
-		    (mr_name_length(n, i - 1) == bytes && !memcmp(n->text + n->start[i - 1], s, bytes)))
+		if (i == 0 || (length_of(n, i - 1) == bytes && !memcmp(n->text + n->start[i - 1], s, bytes)))
 			return &n->slot[at];
 	}
 }
@@ -39,7 +39,7 @@ find_slot(const mr_name_table *n, const char *s, size_t bytes)
 static void
 put_in_slot(mr_name_table *n, size_t i)
 {
-	uint32_t *slot = find_slot(n, n->text + n->start[i], mr_name_length(n, i));
+	uint32_t *slot = find_slot(n, n->text + n->start[i], length_of(n, i));
 
 	if (*slot == 0)
 		*slot = (uint32_t)i + 1;

@@ -13,9 +13,6 @@ typedef struct mr_name_table {
 	size_t count, start_room, slots;
 } mr_name_table;
 
-/* Bytes of name i. */
-size_t mr_name_length(const mr_name_table *n, size_t i);
-
 /* The number of the first that is called so; a new one where none is. */
 uint32_t mr_name_number(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes);
 

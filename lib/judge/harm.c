@@ -270,11 +270,11 @@ count_pairs(mr_ctx *ctx, const crowd *c, double diagonal, uint32_t *near_harm, u
 
 	mr_components_label(ctx, &c->now, &part, &several);
 	came.part = part;
-	mr_intersections_visit(ctx, NULL, &c->now, NULL, count_pair, &came);
+	mr_intersections_visit(ctx, NULL, &c->now, count_pair, &came);
 	if (!came.near && !came.far)
 		return;
 	went = (tally){ &c->now, &c->then, part, deep, NULL, NULL, 0, 0 };
-	mr_intersections_visit(ctx, NULL, &c->then, NULL, count_pair, &went);
+	mr_intersections_visit(ctx, NULL, &c->then, count_pair, &went);
 	h->pairs = less(came.near, went.near);
 	h->far = less(came.far, went.far);
 }

@@ -103,8 +103,10 @@ mr_column_carried(const mr_column *c, const char *layer)
 		   mr_column_of("mesh", c->name));
 }
 
-mr_attribute
-mr_column_kind(const mr_column *c)
+/* Of a column that is none by convention: labels, where it has other than doubles, or doubles, one a row, all
+ * of which are whole or missing (not finite), as a file's int is and, of some programs, its float. */
+static mr_attribute
+kind_of(const mr_column *c)
 {
 	const mr_column_info *info = mr_column_of(c->layer, c->name);
 	const double *x = c->data;
@@ -247,7 +249,7 @@ mr_carried_begin(mr_ctx *ctx, mr_frame *f, size_t i, size_t before, size_t rows,
 	if (column->shape.element != '-' && column->rows != before)
 		return mr_fail(ctx, MR_ERANGE, "%s: column %s has %llu rows, not %zu", column->layer,
 		    column->name, (unsigned long long)column->rows, before);
-	*c = (mr_carried){ .shape = column->shape, .kind = mr_column_kind(column), .from = column->data };
+	*c = (mr_carried){ .shape = column->shape, .kind = kind_of(column), .from = column->data };
 	memcpy(c->name, column->name, sizeof c->name);
 	c->rows = column->shape.element == '-' ? (size_t)column->rows : rows;
 	c->to = mr_alloc(ctx, c->rows * c->shape.components, mr_type_size(c->shape.type));

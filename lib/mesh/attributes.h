@@ -43,10 +43,6 @@ bool mr_column_of_surfaces(const char *name);
  * or none by convention of any of these. */
 bool mr_column_carried(const mr_column *c, const char *layer);
 
-/* Of a column that is none by convention: labels, where it has other than doubles, or doubles, one a row, all
- * of which are whole or missing (not finite), as a file's int is and, of some programs, its float. */
-mr_attribute mr_column_kind(const mr_column *c);
-
 /* How n rows are made: each of `width` parents and their weights; NULL: of one parent, by itself. */
 typedef struct mr_rows_from {
 	size_t n, width;

@@ -109,8 +109,9 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 	*out = e;
 }
 
-bool
-mr_edge_is_closed(const mr_mesh *m, const mr_edges *edges, size_t e)
+/* Whether edge e has an even number of faces, as many one way as the other. */
+static bool
+is_closed(const mr_mesh *m, const mr_edges *edges, size_t e)
 {
 	const uint32_t *h = edges->he + edges->start[e];
 	uint32_t n = mr_edge_faces(edges, e), same = 0;
@@ -124,7 +125,7 @@ bool
 mr_edges_enclose(const mr_mesh *m, const mr_edges *edges)
 {
 	for (size_t e = 0; e < edges->count; e++)
-		if (!mr_edge_is_closed(m, edges, e))
+		if (!is_closed(m, edges, e))
 			return false;
 	return edges->count > 0;
 }

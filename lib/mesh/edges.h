@@ -29,10 +29,7 @@ mr_same_direction(const mr_mesh *m, uint32_t h, uint32_t g)
 	return mr_he_from(m, h) == mr_he_from(m, g);
 }
 
-/* Whether edge e has an even number of faces, as many one way as the other. */
-bool mr_edge_is_closed(const mr_mesh *m, const mr_edges *edges, size_t e);
-
-/* Whether the surface encloses a volume: every edge is closed. */
+/* Whether the surface encloses a volume: every edge has as many faces one way as the other. */
 bool mr_edges_enclose(const mr_mesh *m, const mr_edges *edges);
 
 /* Faces of edge e. */

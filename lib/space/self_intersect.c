@@ -255,7 +255,6 @@ corners(const mr_mesh *m, size_t f, mr_v3 p[3])
 
 typedef struct search {
 	const mr_mesh *m;
-	const bool *among;
 	bool *flat; /* faces without area */
 	void (*visit)(void *arg, uint32_t f, uint32_t g);
 	void *arg;
@@ -279,7 +278,7 @@ look_at_pair(void *arg, uint32_t f, uint32_t g)
 	const search *s = arg;
 	mr_v3 p[3], q[3];
 
-	if (s->flat[f] || s->flat[g] || (s->among && !s->among[f] && !s->among[g]))
+	if (s->flat[f] || s->flat[g])
 		return;
 	corners(s->m, f, p);
 	corners(s->m, g, q);
@@ -288,11 +287,11 @@ look_at_pair(void *arg, uint32_t f, uint32_t g)
 }
 
 void
-mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const bool *among,
+mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m,
     void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	search s = { m, among, MR_NEW(ctx, m->nf, bool), visit, arg };
+	search s = { m, MR_NEW(ctx, m->nf, bool), visit, arg };
 	mr_bvh *own;
 
 	if (!bvh) {
@@ -328,6 +327,6 @@ mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *cr
 
 	if (crosses)
 		memset(crosses, 0, m->nf * sizeof *crosses);
-	mr_intersections_visit(ctx, bvh, m, NULL, count_pair, &c);
+	mr_intersections_visit(ctx, bvh, m, count_pair, &c);
 	*count = c.count;
 }

@@ -18,12 +18,9 @@ bool mr_triangles_intersect(const mr_v3 p[3], const mr_v3 q[3]);
 /* True where the corners lie on a line or coincide: the area is exactly zero. */
 bool mr_triangle_degenerate(mr_v3 a, mr_v3 b, mr_v3 c);
 
-/*
- * Calls visit(arg, f, g) once for each pair of faces that intersect, from several threads at once.  bvh: of
- * m, where the caller has one, or NULL.  among: m->nf, faces of which one is to be of the pair, or NULL: all.
- * Faces without area are left out.
- */
-void mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const bool *among,
+/* Calls visit(arg, f, g) once for each pair of faces that intersect, from several threads at once.  bvh: of
+ * m, where the caller has one, or NULL.  Faces without area are left out. */
+void mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m,
     void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg);
 
 /* How many pairs of faces intersect; faces without area are left out.  bvh: of m, where the caller has one,

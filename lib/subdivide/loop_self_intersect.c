@@ -7,6 +7,7 @@
 #include "subdivide/loop_self_intersect.h"
 
 #include "base/parallel.h"
+#include "space/bvh.h"
 #include "space/self_intersect.h"
 
 enum { GRAIN = 16, LEVELS = 16 };
@@ -29,10 +30,8 @@ typedef struct tree {
 	mr_v3 center;       /* of the surface's box */
 	double unit;        /* about one over its size */
 	node *node[LEVELS]; /* of the triangles of each level */
-	uint32_t *order;    /* triangles of level 0 by where their boxes begin along the axis */
-	float *begin;       /* where that is, in this order */
-	int axis;           /* the longest of the surface's box */
-	float longest;      /* box along it */
+	mr_mesh roots;      /* of the triangles of level 0 ones with their boxes */
+	mr_bvh *bvh;        /* over these */
 	size_t level_of_job;
 	const bool *moved; /* triangles of level 0; NULL: all */
 	bool *crosses;
@@ -211,96 +210,68 @@ test_self(const tree *x, size_t k, uint32_t f)
 	}
 }
 
-/* How many of the first triangles of the order begin before `at`. */
-static size_t
-count_before(const tree *x, float at)
-{
-	size_t low = 0, high = x->level[0].nf;
+/* A triangle of level 0 whose box is looked at. */
+typedef struct looking {
+	const tree *x;
+	uint32_t f;
+} looking;
 
-	while (low < high) {
-		size_t middle = low + (high - low) / 2;
-		if (x->begin[middle] < at)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low;
+static mr_box
+box_of(const node *d)
+{
+	return (mr_box){ { (double)d->lo[0], (double)d->lo[1], (double)d->lo[2] },
+		{ (double)d->hi[0], (double)d->hi[1], (double)d->hi[2] } };
 }
 
-/* Whether to look at the parts of f: it or one whose box meets its own, of those in the order from i on, has
- * moved, or what a part passed through may have. */
 static bool
-is_due(const tree *x, uint32_t f, size_t i)
+stands(void *arg, uint32_t g)
+{
+	const looking *l = arg;
+
+	return !l->x->moved[g];
+}
+
+/* Whether to look at the parts of f: it or one whose box meets its own has moved, or what a part passed
+ * through may have. */
+static bool
+is_due(const tree *x, uint32_t f)
 {
 	size_t parts = x->level[x->n].nf / x->level[0].nf;
-	const node *d = &x->node[0][f];
 
 	if (!x->moved || x->moved[f])
 		return true;
 	for (size_t k = parts * f; k < parts * f + parts; k++)
 		if (x->crosses[k])
 			return true;
-	for (; i < x->level[0].nf && x->begin[i] <= d->hi[x->axis]; i++)
-		if (x->moved[x->order[i]] && !apart(d, &x->node[0][x->order[i]]))
-			return true;
-	return false;
+	return !mr_bvh_overlap(x->bvh, box_of(&x->node[0][f]), stands, &(looking){ x, f });
 }
 
-/* Marks the parts of f that pass through any.  i: where to begin in the order. */
-static void
-test_all(const tree *x, uint32_t f, size_t i)
+static bool
+test_root(void *arg, uint32_t g)
 {
-	size_t parts = x->level[x->n].nf / x->level[0].nf;
-	float last = x->node[0][f].hi[x->axis];
+	const looking *l = arg;
 
-	memset(x->crosses + parts * f, 0, parts * sizeof *x->crosses);
-	test_self(x, 0, f);
-	for (; i < x->level[0].nf && x->begin[i] <= last; i++)
-		if (x->order[i] != f)
-			test_pair(x, 0, f, x->order[i]);
+	if (g != l->f)
+		test_pair(l->x, 0, l->f, g);
+	return true;
 }
 
+/* Marks the parts of triangles of level 0 that pass through any. */
 static void
 search(void *arg, size_t begin, size_t end)
 {
 	const tree *x = arg;
+	size_t parts = x->level[x->n].nf / x->level[0].nf;
 
-	for (size_t i = begin; i < end; i++) {
-		uint32_t f = x->order[i];
-		size_t first = count_before(x, x->node[0][f].lo[x->axis] - x->longest);
-		if (is_due(x, f, first))
-			test_all(x, f, first);
+	for (size_t f = begin; f < end; f++) {
+		if (!is_due(x, (uint32_t)f))
+			continue;
+		memset(x->crosses + parts * f, 0, parts * sizeof *x->crosses);
+		if (x->node[0][f].angle < 0)
+			continue; /* it has no normal anywhere, and crosses nothing */
+		test_self(x, 0, (uint32_t)f);
+		mr_bvh_overlap(x->bvh, box_of(&x->node[0][f]), test_root, &(looking){ x, (uint32_t)f });
 	}
-}
-
-/* Sorts the triangles of level 0, by merging: order and begin. */
-static void
-sort_roots(mr_ctx *ctx, tree *x)
-{
-	size_t nf = x->level[0].nf;
-	uint32_t *from = MR_NEW(ctx, nf, uint32_t), *to = MR_NEW(ctx, nf, uint32_t), *swap;
-	const node *d = x->node[0];
-	int axis = x->axis;
-
-	x->begin = MR_NEW(ctx, nf, float);
-	for (size_t f = 0; f < nf; f++)
-		from[f] = (uint32_t)f;
-	for (size_t width = 1; width < nf; width *= 2) {
-		for (size_t first = 0; first < nf; first += 2 * width) {
-			size_t middle = first + width < nf ? first + width : nf;
-			size_t end = first + 2 * width < nf ? first + 2 * width : nf;
-			for (size_t i = first, j = middle, k = first; k < end; k++)
-				to[k] = j == end || (i < middle && d[from[i]].lo[axis] <= d[from[j]].lo[axis])
-				            ? from[i++]
-				            : from[j++];
-		}
-		swap = from;
-		from = to;
-		to = swap;
-	}
-	x->order = from;
-	for (size_t f = 0; f < nf; f++)
-		x->begin[f] = d[from[f]].lo[axis];
 }
 
 static void
@@ -308,21 +279,27 @@ choose_units(tree *x)
 {
 	mr_box b = mr_box_of(x->p, x->level[x->n].nv);
 	mr_v3 size = mr_sub(b.max, b.min);
-	double e[3] = { size.x, size.y, size.z };
+	double most = fmax(size.x, fmax(size.y, size.z));
 
-	for (int k = 1; k < 3; k++)
-		x->axis = e[k] > e[x->axis] ? k : x->axis;
 	x->center = mr_axpy(0.5, size, b.min);
-	x->unit = e[x->axis] > 0 ? 1 / e[x->axis] : 1;
+	x->unit = most > 0 ? 1 / most : 1;
 }
 
 static void
-measure_roots(tree *x)
+index_roots(mr_ctx *ctx, tree *x)
 {
-	for (size_t f = 0; f < x->level[0].nf; f++)
-		/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference) a level of faces has nodes */
-		x->longest = fmaxf(x->longest, x->node[0][f].hi[x->axis] - x->node[0][f].lo[x->axis]);
-	x->longest = nextafterf(x->longest, INFINITY);
+	size_t nf = x->level[0].nf;
+	mr_v3 *p = MR_NEW(ctx, 2 * nf, mr_v3);
+	mr_tri *t = MR_NEW(ctx, nf, mr_tri);
+
+	for (uint32_t f = 0; f < nf; f++) {
+		mr_box b = box_of(&x->node[0][f]);
+		p[2 * (size_t)f] = b.min;
+		p[2 * (size_t)f + 1] = b.max;
+		t[f] = (mr_tri){ { 2 * f, 2 * f + 1, 2 * f } };
+	}
+	x->roots = (mr_mesh){ "roots", p, t, 2 * nf, nf };
+	mr_bvh_build(ctx, &x->roots, &x->bvh);
 }
 
 void
@@ -338,8 +315,7 @@ mr_find_crossings(
 		x.level_of_job = k;
 		mr_parallel(ctx, level[k].nf, 4096, make_nodes, &x);
 	}
-	measure_roots(&x);
-	sort_roots(ctx, &x);
+	index_roots(ctx, &x);
 	mr_parallel(ctx, level[0].nf, GRAIN, search, &x);
 	mr_mark_release(ctx, mark);
 }
