@@ -176,8 +176,8 @@ MR_API mr_status mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, c
 MR_API mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name,
     mr_shape shape, const void *data, size_t rows) MR_WARN_UNUSED;
 
-/* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of
- * that element. */
+/* Removes a column if it is there.  With layer NULL: from every layer.  With name NULL: the whole layer.  With
+ * element not 0: only columns of that element. */
 MR_API void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
 
 /* The layer's surface: positions, of which the largest coordinate is 0 or within 1e-30 and 1e30, and

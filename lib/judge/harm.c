@@ -181,13 +181,6 @@ count_folds(mr_ctx *ctx, const crowd *c, uint32_t *harm, size_t *folds)
 
 /* Intersections */
 
-static void
-corners(const mr_mesh *m, uint32_t f, mr_v3 p[3])
-{
-	for (int i = 0; i < 3; i++)
-		p[i] = m->p[m->t[f].v[i]];
-}
-
 bool
 mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g)
 {
@@ -195,10 +188,10 @@ mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t
 	mr_v3 p[6], q[6];
 	double most;
 
-	corners(before, f, p);
-	corners(before, g, p + 3);
-	corners(after, f, q);
-	corners(after, g, q + 3);
+	mr_corners(before, f, p);
+	mr_corners(before, g, p + 3);
+	mr_corners(after, f, q);
+	mr_corners(after, g, q + 3);
 	most = little * mr_box_diagonal(mr_box_of(p, 6));
 	for (int i = 0; i < 6; i++)
 		for (int k = 0; k < i; k++)
@@ -237,8 +230,8 @@ goes_deep(const tally *s, uint32_t f, uint32_t g)
 	mr_v3 p[3], q[3];
 	double size;
 
-	corners(s->now, f, p);
-	corners(s->now, g, q);
+	mr_corners(s->now, f, p);
+	mr_corners(s->now, g, q);
 	size = fmin(mr_box_diagonal(mr_box_of(p, 3)), mr_box_diagonal(mr_box_of(q, 3)));
 	return fmin(reach(p, q), reach(q, p)) > fmin(s->deep, share * size);
 }

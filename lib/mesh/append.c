@@ -22,12 +22,6 @@ rows_of(const mr_frame *f, const char *layer, char element)
 	return 0;
 }
 
-static bool
-same_shape(mr_shape a, mr_shape b)
-{
-	return a.element == b.element && a.type == b.type && a.components == b.components;
-}
-
 /* Whether a frame without the column says what rows of zeros do. */
 static bool
 is_zero_by_default(const char *name)
@@ -46,7 +40,7 @@ all_have(const joined *j)
 		return true;
 	for (size_t i = 0; i < j->n; i++) {
 		const mr_column *c = mr_frame_find(j->frames[i], j->layer, j->name);
-		if (c ? !same_shape(c->shape, j->first->shape)
+		if (c ? !mr_same_shape(c->shape, j->first->shape)
 		      : rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
 			return false;
 	}

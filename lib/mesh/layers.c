@@ -249,18 +249,6 @@ mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh 
 	return check_size(ctx, m);
 }
 
-/* Drops the columns of a name from every layer. */
-static void
-drop_everywhere(mr_frame *f, const char *name)
-{
-	for (size_t i = f->count; i-- > 0;)
-		if (*f->columns[i].layer && !strcmp(f->columns[i].name, name)) {
-			char layer[MR_LAYER_MAX + 1];
-			memcpy(layer, f->columns[i].layer, sizeof layer);
-			mr_frame_drop(f, layer, name, 0);
-		}
-}
-
 /* What is stale after a change of shape or connectivity is so after a greater one. */
 static bool
 concerns(mr_change change, const char *layer, size_t i)
@@ -284,12 +272,8 @@ static void
 drop_references(mr_frame *f, const char *layer)
 {
 	for (const mr_column_info *c = mr_columns; c->name; c++)
-		if (c->refers && !strcmp(c->refers, layer)) {
-			if (c->layer)
-				mr_frame_drop(f, c->layer, c->name, 0);
-			else
-				drop_everywhere(f, c->name);
-		}
+		if (c->refers && !strcmp(c->refers, layer))
+			mr_frame_drop(f, c->layer, c->name, 0);
 }
 
 /* own: whether columns of the layer itself go too, but for a file's own of such a name. */

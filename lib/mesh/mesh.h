@@ -87,6 +87,20 @@ mr_face_repeats(const mr_mesh *m, size_t f)
 	return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
 }
 
+static inline bool
+mr_has_corner(mr_tri t, uint32_t v)
+{
+	return t.v[0] == v || t.v[1] == v || t.v[2] == v;
+}
+
+/* Where the corners of face f are. */
+static inline void
+mr_corners(const mr_mesh *m, size_t f, mr_v3 p[3])
+{
+	for (int i = 0; i < 3; i++)
+		p[i] = m->p[m->t[f].v[i]];
+}
+
 /* A place on a surface: on a face, at barycentric coordinates. */
 typedef struct mr_place {
 	uint32_t face;

@@ -41,12 +41,6 @@ degenerate(const mr_mesh *m, size_t f)
 	return mr_face_repeats(m, f) || mr_norm2(mr_face_cross(m, f)) == 0;
 }
 
-static bool
-has(mr_tri t, uint32_t v)
-{
-	return t.v[0] == v || t.v[1] == v || t.v[2] == v;
-}
-
 /* Whether an earlier face has the vertices of face f. */
 static bool
 is_repeated(const mr_mesh *m, const mr_incidence *around, uint32_t f)
@@ -54,7 +48,7 @@ is_repeated(const mr_mesh *m, const mr_incidence *around, uint32_t f)
 	const uint32_t *v = m->t[f].v;
 
 	for (size_t i = around->start[v[0]]; around->face[i] < f; i++)
-		if (has(m->t[around->face[i]], v[1]) && has(m->t[around->face[i]], v[2]))
+		if (mr_has_corner(m->t[around->face[i]], v[1]) && mr_has_corner(m->t[around->face[i]], v[2]))
 			return true;
 	return false;
 }

@@ -138,12 +138,6 @@ typedef struct search {
 	mr_contacts *c; /* at first each start is how many the vertex before has */
 } search;
 
-static bool
-has_corner(const mr_tri *t, uint32_t v)
-{
-	return t->v[0] == v || t->v[1] == v || t->v[2] == v;
-}
-
 /* Faces at the other vertices of the ring of v, without those that have v itself. */
 static size_t
 across_slit(const search *s, uint32_t v, mr_closest *out)
@@ -151,7 +145,7 @@ across_slit(const search *s, uint32_t v, mr_closest *out)
 	size_t n = 0;
 
 	for (uint32_t i = s->slits.next[v]; i != v && n < MR_CONTACTS; i = s->slits.next[i])
-		if (!has_corner(&s->m->t[s->slits.face[i]], v))
+		if (!mr_has_corner(s->m->t[s->slits.face[i]], v))
 			out[n++] = mr_face_closest(s->m, s->slits.face[i], s->m->p[v]);
 	return n;
 }

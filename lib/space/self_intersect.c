@@ -246,13 +246,6 @@ mr_triangles_intersect(const mr_v3 p[3], const mr_v3 q[3])
 
 /* ---- all pairs of a surface ---- */
 
-static void
-corners(const mr_mesh *m, size_t f, mr_v3 p[3])
-{
-	for (int i = 0; i < 3; i++)
-		p[i] = m->p[m->t[f].v[i]];
-}
-
 typedef struct search {
 	const mr_mesh *m;
 	bool *flat; /* faces without area */
@@ -267,7 +260,7 @@ find_flat(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		mr_v3 p[3];
-		corners(s->m, f, p);
+		mr_corners(s->m, f, p);
 		s->flat[f] = mr_triangle_degenerate(p[0], p[1], p[2]);
 	}
 }
@@ -280,8 +273,8 @@ look_at_pair(void *arg, uint32_t f, uint32_t g)
 
 	if (s->flat[f] || s->flat[g])
 		return;
-	corners(s->m, f, p);
-	corners(s->m, g, q);
+	mr_corners(s->m, f, p);
+	mr_corners(s->m, g, q);
 	if (mr_triangles_intersect(p, q))
 		s->visit(s->arg, f, g);
 }

@@ -108,8 +108,8 @@ find_boxes(void *arg, size_t begin, size_t end)
 	const mr_mesh *m = s->bvh->mesh;
 
 	for (size_t i = begin; i < end; i++) {
-		const uint32_t *v = m->t[s->bvh->face[i]].v;
-		mr_v3 p[3] = { m->p[v[0]], m->p[v[1]], m->p[v[2]] };
+		mr_v3 p[3];
+		mr_corners(m, s->bvh->face[i], p);
 		mr_box box = mr_box_of(p, 3);
 		mr_v3 lo = bvh_unit(s->bvh, box.min), hi = bvh_unit(s->bvh, box.max);
 		for (int k = 0; k < 3; k++) {

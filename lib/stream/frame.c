@@ -93,12 +93,6 @@ mr_frame_has_layer(const mr_frame *frame, const char *layer)
 	return false;
 }
 
-static bool
-same_shape(mr_shape a, mr_shape b)
-{
-	return a.element == b.element && a.type == b.type && a.components == b.components;
-}
-
 static mr_status
 missing(mr_ctx *ctx, const char *layer, const char *name)
 {
@@ -114,7 +108,7 @@ mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 
 	if (!c)
 		return missing(ctx, layer, name);
-	if (!same_shape(c->shape, shape))
+	if (!mr_same_shape(c->shape, shape))
 		return mr_fail(ctx, MR_EMISSING, "%s%scolumn %s is %c %c%u, not %c %c%u", layer,
 		    *layer ? ": " : "", name, c->shape.element, c->shape.type, c->shape.components,
 		    shape.element, shape.type, shape.components);
@@ -185,7 +179,7 @@ mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 	snprintf(put.layer, sizeof put.layer, "%s", layer);
 	snprintf(put.name, sizeof put.name, "%s", name);
 	c = frame->count ? find(frame, layer, name) : NULL;
-	if (c && c->data == data && c->rows == rows && same_shape(c->shape, shape))
+	if (c && c->data == data && c->rows == rows && mr_same_shape(c->shape, shape))
 		return MR_OK; /* what was read is put back: it stays as it is stored */
 	if (!c)
 		MR_TRY(append(ctx, frame, &c));
@@ -230,8 +224,8 @@ mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element
 
 	for (size_t i = 0; i < frame->count; i++) {
 		const mr_column *c = &frame->columns[i];
-		if (strcmp(c->layer, layer) || (name && strcmp(c->name, name)) ||
-		    (element && c->shape.element != element))
+		bool there = layer ? !strcmp(c->layer, layer) : *c->layer != 0;
+		if (!there || (name && strcmp(c->name, name)) || (element && c->shape.element != element))
 			frame->columns[kept++] = *c;
 	}
 	frame->count = kept;

@@ -34,6 +34,12 @@ struct mr_frame {
 	size_t count, room;
 };
 
+static inline bool
+mr_same_shape(mr_shape a, mr_shape b)
+{
+	return a.element == b.element && a.type == b.type && a.components == b.components;
+}
+
 /* Bytes of one value of a type: 8, 4 or 1. */
 size_t mr_type_size(char type);
 

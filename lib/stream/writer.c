@@ -180,8 +180,7 @@ same_name(const sent *a, const sent *b)
 static bool
 same_values(const sent *a, const sent *b)
 {
-	return a->shape.element == b->shape.element && a->shape.type == b->shape.type &&
-	       a->shape.components == b->shape.components && a->owner == b->owner && a->serial == b->serial &&
+	return mr_same_shape(a->shape, b->shape) && a->owner == b->owner && a->serial == b->serial &&
 	       a->print.a == b->print.a && a->print.b == b->print.b;
 }
 

@@ -138,7 +138,7 @@ static bool
 touch(mr_tri a, mr_tri b)
 {
 	for (int i = 0; i < 3; i++)
-		if (a.v[i] == b.v[0] || a.v[i] == b.v[1] || a.v[i] == b.v[2])
+		if (mr_has_corner(b, a.v[i]))
 			return true;
 	return false;
 }
