@@ -2,7 +2,8 @@
 #include "stream/record.h"
 
 #include "base/utf8.h"
-#include "stream/crc32.h"
+
+#include <zlib.h>
 
 /* Where the fields of a header stand. */
 enum {
@@ -205,7 +206,7 @@ checksum(const unsigned char header[MR_HEADER], const void *payload, size_t stor
 
 	memcpy(h, header, MR_HEADER);
 	store(h + CRC, 4, 0);
-	return mr_crc32(mr_crc32(0, h, MR_HEADER), payload, stored);
+	return (uint32_t)crc32_z(crc32_z(0, h, MR_HEADER), payload, stored);
 }
 
 void

@@ -2,7 +2,6 @@
  */
 #include "tests/unit/stream.h"
 
-#include "stream/crc32.h"
 #include "stream/stored.h"
 
 #include <math.h>
@@ -616,23 +615,6 @@ full_disk(void **state)
 	mr_ctx_free(&ctx);
 }
 
-/* Of all lengths around what is taken at once, from everywhere in a line. */
-static void
-test_checksum_is_zlibs(void **state)
-{
-	enum { LENGTH = 300, SHIFT = 16 };
-	unsigned char bytes[LENGTH + SHIFT];
-
-	(void)state;
-	for (size_t i = 0; i < sizeof bytes; i++)
-		bytes[i] = (unsigned char)(i * i * 31 + i / 7);
-	for (size_t n = 0; n <= LENGTH; n++)
-		for (size_t at = 0; at < SHIFT; at++)
-			for (uint32_t crc = 0; crc < 3; crc++)
-				assert_int_equal(mr_crc32(crc * 0x87654321u, bytes + at, n),
-				    crc32_z(crc * 0x87654321u, bytes + at, n));
-}
-
 int
 main(void)
 {
@@ -648,7 +630,6 @@ main(void)
 		cmocka_unit_test(histories),
 		cmocka_unit_test(refusals),
 		cmocka_unit_test(sequences),
-		cmocka_unit_test(test_checksum_is_zlibs),
 		cmocka_unit_test(full_disk),
 	};
 
