@@ -144,6 +144,28 @@ length_for(double curvature, double error, double shortest, double longest)
 	return squared > shortest * shortest ? fmin(sqrt(squared), longest) : shortest;
 }
 
+/* Of the uniform length; of 132,547 edges of 120 models sharper than 40 degrees 399 are gone without. */
+static const double OFF = 0.125, SHORTEST = 1.0 / 8;
+
+void
+mr_sizing_curves(
+    mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double uniform, double **length)
+{
+	grader w = { .ctx = ctx, .m = m, .length = MR_NEW(ctx, m->nv, double) };
+	bool shorter = false;
+
+	for (uint32_t v = 0; v < m->nv; v++) {
+		bool sharp = d->kind[v] == MR_CURVE && !mr_dyn_on_boundary(d, v);
+		w.length[v] = !sharp ? uniform
+		                     : length_for(
+					   curvature_along(d, v), OFF * uniform, SHORTEST * uniform, uniform);
+		shorter |= w.length[v] < uniform;
+	}
+	if (shorter)
+		grade(&w, topo);
+	*length = shorter ? w.length : NULL;
+}
+
 void
 mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
     double shortest, double longest, double *length)

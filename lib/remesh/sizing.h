@@ -16,4 +16,13 @@
 void mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
     double shortest, double longest, double *length);
 
+/*
+ * The uniform length, and where sharp edges turn within an edge shorter ones, down to an eighth, so that the
+ * middle of an edge is at most an eighth of the uniform length away from the curve; elsewhere growing by at
+ * most half of the way along edges.  Not along boundaries: those of scans are ragged.  d: still a copy of m.
+ * *length: nv in the arena, NULL where it is uniform everywhere.
+ */
+void mr_sizing_curves(
+    mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double uniform, double **length);
+
 #endif

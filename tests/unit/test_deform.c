@@ -572,7 +572,7 @@ test_parts_that_touch_stay_together(void **state)
 
 	(void)state;
 	for (size_t v = 0; v < one.nv; v++) {
-		region[v] = one.p[v].x < 0.2 ? FIXED : FREE;
+		region[v] = one.p[v].x < 0.2 ? (uint32_t)FIXED : FREE;
 		region[one.nv + v] = one.p[v].x > 0.8 ? HANDLE : FREE;
 	}
 	for (int turned = 0; turned < 2; turned++) {

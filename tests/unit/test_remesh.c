@@ -224,6 +224,49 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces");
 }
 
+/* A block, 6 by 6 by 6, whose upright edges are rounded by a radius of 0.5 in 12 steps. */
+static mr_mesh
+rounded_block(void)
+{
+	enum { STEPS = 12, N = 4 * (STEPS + 1) };
+	mr_v3 *p = MR_NEW(&ctx, 2 * N + 2, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 4 * N, mr_tri);
+
+	for (uint32_t i = 0; i < N; i++) {
+		uint32_t next = (i + 1) % N, corner = i / (STEPS + 1);
+		double turn = MR_PI / 2 * (corner + (double)(i % (STEPS + 1)) / STEPS);
+		double x = corner == 0 || corner == 3 ? 2.5 : -2.5, y = corner < 2 ? 2.5 : -2.5;
+		p[i] = mr_vec(x + 0.5 * cos(turn), y + 0.5 * sin(turn), -3);
+		p[N + i] = mr_add(p[i], mr_vec(0, 0, 6));
+		t[4 * i] = (mr_tri){ { i, next, N + next } };
+		t[4 * i + 1] = (mr_tri){ { i, N + next, N + i } };
+		t[4 * i + 2] = (mr_tri){ { next, i, 2 * N } };
+		t[4 * i + 3] = (mr_tri){ { N + i, N + next, 2 * N + 1 } };
+	}
+	p[2 * N] = mr_vec(0, 0, -3);
+	p[2 * N + 1] = mr_vec(0, 0, 3);
+	return (mr_mesh){ "block", p, t, 2 * N + 2, 4 * N };
+}
+
+/* Roundings smaller than an edge are followed, and edges are as long as ever elsewhere. */
+static void
+curves_are_followed_around_small_roundings(void **state)
+{
+	(void)state;
+	for (double length = 0.7; length < 1.5; length += 0.2) {
+		mr_remesh_opts o = MR_REMESH_DEFAULTS;
+		mr_mesh m = rounded_block(), out;
+		mr_remesh_result result;
+		mr_places map;
+		o.length = length;
+		o.feature = 40;
+		assert_int_equal(mr_remesh(&ctx, &m, &o, &out, &map, &result), MR_OK);
+		assert_int_equal(result.sharp_edges, 104);
+		assert_true((double)out.nf < 10 * mr_mesh_area(&ctx, &m) / (length * length));
+		mr_ctx_free(&ctx);
+	}
+}
+
 /* Within 5 %, of closed and open surfaces, with one length or adapted ones. */
 static void
 as_many_as_are_wanted(void **state)
@@ -470,6 +513,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(threads_and_runs_do_not_change_a_byte, setup, teardown),
 		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, setup, teardown),
+		cmocka_unit_test_setup_teardown(curves_are_followed_around_small_roundings, setup, teardown),
 		cmocka_unit_test_setup_teardown(as_many_as_are_wanted, setup, teardown),
 		cmocka_unit_test_setup_teardown(boundary_loops_are_not_crushed, setup, teardown),
 		cmocka_unit_test_setup_teardown(
