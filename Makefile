@@ -45,8 +45,8 @@ SAFE     := -Wl,-z,relro,-z,now,-z,noexecstack
 SHARED   := -fPIC -fvisibility=hidden
 # Where it was built does not show in what is built.
 PLACE    := -fdebug-prefix-map=$(CURDIR)=.
-ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -fno-trapping-math -ffp-contract=off -pthread $(SHARED) $(PLACE) \
-		$(CFLAGS) $(HARDEN)
+ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -fno-trapping-math -ffp-contract=off -pthread $(SHARED) \
+		$(PLACE) $(CFLAGS) $(HARDEN)
 ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -ffp-contract=off -pthread $(SHARED) $(PLACE) $(CFLAGS) $(HARDEN)
 LIBS     := -Wl,--as-needed -lcholmod -lumfpack -llz4 -ltinyobjloader_double -lpng -ljpeg -ljansson -lz -lstdc++ -ldl \
 		-lm

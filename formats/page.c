@@ -244,6 +244,28 @@ is_place(const mr_column *c)
 	return !strcmp(c->name, "position") || (!strcmp(c->layer, "base") && !strcmp(c->name, "encoded"));
 }
 
+/* Puts vertices that no face has, which are not drawn, into the box of the rest, where they make no step
+ * larger. */
+static mr_status
+clamp_places(mr_ctx *ctx, mr_frame *f, mr_column *c, whole_steps *steps)
+{
+	size_t n = (size_t)c->rows;
+	const mr_v3 *p = c->data;
+	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
+	mr_mesh m;
+	mr_box box;
+
+	MR_TRY(mr_layer_surface_or_points(ctx, f, c->layer, &m));
+	m.p = c->data;
+	box = mr_mesh_box(&m);
+	for (size_t i = 0; i < n; i++)
+		q[i] = mr_vec(fmin(fmax(p[i].x, box.min.x), box.max.x),
+		    fmin(fmax(p[i].y, box.min.y), box.max.y), fmin(fmax(p[i].z, box.min.z), box.max.z));
+	c->data = q;
+	*steps = steps_of_places(box);
+	return MR_OK;
+}
+
 /* Within 24 bits of the largest; of barycentric coordinates the third is what the two leave of 1. */
 static whole_steps
 steps_of_column(const mr_column *c)
@@ -308,7 +330,10 @@ take_column(
 		return put_heights(ctx, to, &c, d, notes);
 	if (!strcmp(c.name, "response"))
 		MR_TRY(centre_response(ctx, from, &c, centre));
-	steps = is_place(&c) ? steps_of_places(mr_box_of(c.data, c.rows)) : steps_of_column(&c);
+	if (is_place(&c))
+		MR_TRY(clamp_places(ctx, from, &c, &steps));
+	else
+		steps = steps_of_column(&c);
 	if (!strcmp(c.name, "response"))
 		memcpy(steps.origin, centre, sizeof centre);
 	return steps.components ? put_steps(ctx, to, &c, &steps, notes) : mr_frame_pass(ctx, to, &c);

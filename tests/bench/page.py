@@ -8,7 +8,8 @@ FRAMES = 60
 DRAG = """(async () => {
 	const { posing } = mrView, { deformer, pose } = posing, times = { deformation: [], normals: [] };
 	for (let i = 0; i < %d; i++) {
-		pose.drag(1, { translate: [0.002 * i, 0, 0], turn: pose.grip(1).turn.clone().set(0, 0, 0.01 * i), scale: [1, 1, 1] });
+		const turn = pose.grip(1).turn.clone().set(0, 0, 0.01 * i);
+		pose.drag(1, { translate: [0.002 * i, 0, 0], turn, scale: [1, 1, 1] });
 		let began = performance.now();
 		await deformer.compute(pose.maps());
 		times.deformation.push(performance.now() - began);

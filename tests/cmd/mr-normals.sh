@@ -114,8 +114,3 @@ BEGIN { seed = 9; while (n++ < 20000) { x = 12 * u(); y = 9 * u(); print x, y, 0
 mr-import --points hills.xyz | mr-normals | mr-export -q - -f ply-ascii | awk 'body { up += $6 > 0 } /end_header/ { body = 1 }
 	END { print "hills:", up == 0 || up == 20000 ? "all on one side" : up " of 20000 up" }'
 
-echo 'a hollow ball, whose wall is as thin as its points are apart' >&2
-mr-make sphere --points 3000 -o outer.mrs
-mr-make sphere --points 3000 --seed 2 | mr-transform -s 0.95 -o inner.mrs
-mr-cat --append outer.mrs inner.mrs | mr-export -f xyz - | cut -d ' ' -f 1-3 | mr-import -f xyz - | mr-normals -o out
-mr-normals outer.mrs -o out

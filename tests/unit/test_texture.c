@@ -105,10 +105,11 @@ materials(void **state)
 	put("folder/a b.png", "");
 	put("folder/absolute.png", "");
 	put("folder/sub/m.mtl", "# comment\nKd 1 1 1\nnewmtl red\n  Kd 1 0.5 -2 # red\nnewmtl blue two\nKd "
-				"0.25\nmap_Kd -s 2 2 -o 0 0 0 "
-				"-clamp on -bm 0.1 a b.png\nnewmtl nobody\nKd 9 9 9\nnewmtl out\nmap_Kd "
+				"0.25\nmap_Kd a b.png\n"
+				"newmtl nobody\nKd 9 9 9\nnewmtl out\nmap_Kd "
 				"../outside.png\nnewmtl absolute\n"
-				"map_kd C:\\pictures\\absolute.png\n");
+				"map_kd -s 2 2 -o 0 0 0 -clamp on -bm 0.1 "
+				"C:\\pictures\\absolute.png\n");
 	assert_int_equal(mr_materials_find(&ctx, &m, "folder", &look, &count), MR_OK);
 	assert_int_equal(count, 5);
 	assert_true(
@@ -119,7 +120,7 @@ materials(void **state)
 	assert_false(look[2].colored);
 	assert_null(look[3].file);
 	assert_string_equal(look[4].file, "folder/absolute.png");
-	assert_string_equal(heard, "1 ../outside.png\n1 gone.mtl\n1 material green\n");
+	assert_string_equal(heard, "1 ../outside.png\n1 sub\\m.mtl gone.mtl\n1 material green\n");
 	mr_ctx_free(&ctx);
 }
 

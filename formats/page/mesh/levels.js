@@ -126,7 +126,8 @@ function surfaceOver(layer, vertices, parts) {
 
 /* Gives a frame the surface that the page's text tells of, if it does. */
 export function addLevels(frame) {
-	const { layer, level, vertices } = frame.displaced || {}, parts = { height: columnOf(frame, HEIGHTS, "height") };
+	const { layer, level, vertices } = frame.displaced || {};
+	const parts = { height: columnOf(frame, HEIGHTS, "height") };
 
 	if (!frame.displaced)
 		return;
