@@ -245,19 +245,26 @@ mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_in
 	label_vertices(ctx, mesh, &c->mesh_inc, &c->lifted, inc, source, c->label);
 }
 
+static bool
+is_within(mr_v3 bary)
+{
+	return bary.x > 0 && bary.y > 0 && bary.z > 0;
+}
+
 mr_place
-mr_correspond_near(const mr_correspondence *c, size_t i)
+mr_correspond_near(const mr_correspondence *c, const mr_mesh *base, size_t i)
 {
 	uint32_t v = c->label[i];
-	mr_place at = { MR_NONE, { 0, 0, 0 } };
-	const uint32_t *corner;
+	mr_closest near = { .dist2 = INFINITY, .at.face = MR_NONE };
 
 	if (v == MR_NONE)
-		return at;
-	at.face = c->inc->face[c->inc->start[v]];
-	corner = c->lifted.t[at.face].v;
-	at.bary = mr_vec(corner[0] == v, corner[0] != v && corner[1] == v, corner[0] != v && corner[1] != v);
-	return at;
+		return near.at;
+	for (size_t j = c->inc->start[v]; j < c->inc->start[v + 1] && !is_within(near.at.bary); j++) {
+		mr_closest n = mr_face_closest(base, c->inc->face[j], c->mesh->p[i]);
+		if (n.dist2 < near.dist2)
+			near = n;
+	}
+	return near.at;
 }
 
 void

@@ -20,8 +20,9 @@ typedef struct mr_correspondence {
 void mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_incidence *inc,
     const mr_places *source, mr_correspondence *c);
 
-/* The place of the base vertex that is near vertex i on the mesh; face MR_NONE without any. */
-mr_place mr_correspond_near(const mr_correspondence *c, size_t i);
+/* A place near vertex i on base, on a face around the vertex that is near i on the mesh: the first that has
+ * its foot within, or the nearest; face MR_NONE without any. */
+mr_place mr_correspond_near(const mr_correspondence *c, const mr_mesh *base, size_t i);
 
 /*
  * Places for the vertices that do not stand yet: the nearest on the lifted base, met by a walk from the base

@@ -150,7 +150,7 @@ find_easy_feet(void *arg, size_t begin, size_t end)
 	tally *t = &e->tally[begin / GRAIN];
 
 	for (size_t i = begin; i < end; i++) {
-		mr_place near = mr_correspond_near(e->map, i);
+		mr_place near = mr_correspond_near(e->map, e->ground.surface.m, i);
 		settle(e, i,
 		    near.face != MR_NONE && walk_to_foot(e, i, near, t) && is_likely(e, i, near) &&
 			is_sound(e, &e->foot[i]) && faces_alike(e, i, &e->foot[i]));
