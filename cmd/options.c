@@ -179,14 +179,14 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 	return MR_OK;
 }
 
-/* The option of this letter, or where it is 0 of this name. */
+/* The option of this name, or where it is NULL of this letter. */
 static const cmd_opt *
 find(const cmd_opt *const tables[2], char letter, const char *name, size_t length, int *table)
 {
 	for (*table = 0; *table < 2; ++*table)
 		for (const cmd_opt *o = tables[*table]; o && o->name; o++)
-			if (letter ? o->letter == letter
-				   : strlen(o->name) == length && !memcmp(o->name, name, length))
+			if (name ? strlen(o->name) == length && !memcmp(o->name, name, length)
+				 : o->letter == letter)
 				return o;
 	return NULL;
 }

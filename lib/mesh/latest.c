@@ -141,7 +141,7 @@ mr_layer_finished(mr_ctx *ctx, mr_frame *f)
 	static const char *const leading[] = { "handles", "base", "displacement", "control" };
 
 	for (size_t i = 0; i < sizeof leading / sizeof *leading; i++) {
-		const char *what;
+		const char *what = "";
 		bool pending;
 		MR_TRY(mr_layer_is_pending(ctx, f, leading[i], &pending));
 		if (pending) {
