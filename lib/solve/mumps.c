@@ -139,8 +139,9 @@ open_solver(const order *o, mr_ctx *ctx, const mr_sparse *a, double *analysed)
 	DMUMPS_STRUC_C *m = calloc(1, sizeof *m);
 
 	solvers[o->solver] = m;
+	*analysed = 0;
 	if (!m)
-		MPI_Abort(MPI_COMM_WORLD, 1);
+		return MPI_Abort(MPI_COMM_WORLD, 1);
 	start(m);
 	if (a)
 		put_matrix(ctx, a, m);

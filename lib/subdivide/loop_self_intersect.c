@@ -310,8 +310,9 @@ mr_find_crossings(
 	tree x = { .level = level, .n = n, .p = p, .moved = moved, .crosses = crosses };
 
 	choose_units(&x);
-	for (size_t k = n + 1; k-- > 0;) {
+	for (size_t k = 0; k <= n; k++)
 		x.node[k] = MR_NEW(ctx, level[k].nf, node);
+	for (size_t k = n + 1; k-- > 0;) {
 		x.level_of_job = k;
 		mr_parallel(ctx, level[k].nf, 4096, make_nodes, &x);
 	}
