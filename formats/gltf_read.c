@@ -115,7 +115,7 @@ find_parents(walk *w)
 	return MR_OK;
 }
 
-/* Of the scene, or where there is none, all that hang from none. */
+/* Shows the scene's roots.  Without a scene, all nodes that have no parent are roots. */
 static mr_status
 show_roots(walk *w, size_t scene)
 {

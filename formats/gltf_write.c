@@ -386,7 +386,7 @@ as_unit(mr_v3 n)
 	return fabs(mr_norm2(f) - 1) < 5e-4 ? f : as_floats(mr_unit(n));
 }
 
-/* The normal of a vertex; where none is known its triangle's, and along z that of an isolated one. */
+/* The normal of a vertex.  Without one it takes its triangle's; without a triangle, the z axis. */
 static mr_v3
 normal_of(const mr_model *m, const mr_target *pose, const vertices *v, size_t i)
 {

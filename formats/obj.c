@@ -304,7 +304,7 @@ is_mark(obj *o, mr_scan *line)
 
 /* ---- the file ---- */
 
-/* Of any other statement only that it begins as one. */
+/* Other statements are skipped, if they begin with a word as statements do. */
 static mr_status
 other_statement(obj *o, mr_scan *line)
 {

@@ -123,9 +123,9 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const displa
 }
 
 /*
- * What a column's values are: origin + step times a whole number; step 0: whole numbers as they are.  Of
- * each row the first `components` are kept, and the page finds the others.  Rows of more than three values
- * begin at 0, and their origin is only told.
+ * How the page stores a column: a value is origin + step times a whole number.  Step 0 stores whole numbers.
+ * The page keeps the first `components` of a row and works out the rest.  Rows of more than three values are
+ * stored from 0; their origin is only passed on.
  */
 typedef struct whole_steps {
 	double step, origin[3];

@@ -6,7 +6,7 @@ const LEAST = 0.01; /* of a scale: less is flat, or inside out, by an accident o
 const SIZE = 0.6; /* about a sixth of the picture's height to either side */
 const MODES = { move: "translate", turn: "rotate", scale: "scale" };
 
-/* Of all vectors along the axis of a rotation, as long as its angle and whole turns, the one nearest to `near`. */
+/* A rotation as a vector along its axis, as long as its angle.  Whole turns are added until it is nearest to `near`. */
 function logarithm({ x, y, z, w }, near) {
 	const axis = new THREE.Vector3(x, y, z).multiplyScalar(w < 0 ? -2 : 2), whole = 2 * Math.PI;
 	const angle = 2 * Math.atan2(axis.length() / 2, Math.abs(w));

@@ -37,8 +37,8 @@ function nearestPoint(p, m, x, y, radius, aspect) {
 	return vertex < 0 ? null : { vertex, t: best };
 }
 
-/* What is nearest to the eye under a ray (stage.js) of layers, [name, drawn]: { name, face, vertex, at }, at in the
- * layer's floats, face null of points; or null. */
+/* The first thing that a ray (stage.js) hits, as { name, face, vertex, at }, or null.  layers: pairs [name, drawn].
+ * at is in the layer's floats; face is null for points. */
 export function hitAt(ray, layers) {
 	let best = null;
 
