@@ -22,7 +22,7 @@ sheets() { # name
 	(cd "$out/results/$1" && while read -r result; do [ ! -e "$result" ] || echo "$result"; done) | split -l 40 -a 1 - page-
 	for page in page-*; do
 		(cd "$out/results/$1" && mr-cat $(cat "$OLDPWD/$page")) | mr-render --sheet --columns 8 --size 240x220 -c harm \
-		    --title "$(grep "^$1: " table)" "$out/$1-${page#page-}.png"
+		    "$out/$1-${page#page-}.png"
 	done
 	rm page-*
 }
