@@ -151,35 +151,6 @@ take_points(mr_ctx *ctx, const mr_v3 *point, size_t *n, size_t faces, const mr_s
 	return MR_OK;
 }
 
-/* Each face couples the neighbours of its corners, all with all: 22 bytes a pair, and some 300 pairs where
- * corners have six. */
-static mr_status
-check_valences(mr_ctx *ctx, const mr_mesh *control)
-{
-	const double most = 2e7 + 1000 * (double)control->nf;
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *faces = MR_NEW_ZERO(ctx, control->nv, uint32_t), highest = 0;
-	double pairs = 0;
-
-	for (size_t f = 0; f < control->nf; f++)
-		for (int k = 0; k < 3; k++)
-			faces[control->t[f].v[k]]++;
-	for (size_t f = 0; f < control->nf; f++) {
-		const uint32_t *v = control->t[f].v;
-		double coupled = (double)faces[v[0]] + faces[v[1]] + faces[v[2]];
-		pairs += coupled * coupled;
-	}
-	for (uint32_t v = 0; v < control->nv; v++)
-		highest = faces[v] > faces[highest] ? v : highest;
-	if (pairs > most)
-		return mr_fail(ctx, MR_EMESH,
-		    "%s: vertex %u has %u faces, whose vertices are coupled all with all: %.3g pairs over "
-		    "the mesh, where at most %.3g may be",
-		    control->name, highest, faces[highest], pairs, most);
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 static mr_status
 check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 {
@@ -193,7 +164,7 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 	if (!(mr_box_diagonal(mr_box_of(point, n)) > 0))
 		return mr_fail(
 		    ctx, MR_EMESH, "%s: the %zu points to fit it to lie at one place", control->name, n);
-	return check_valences(ctx, control);
+	return MR_OK;
 }
 
 mr_status

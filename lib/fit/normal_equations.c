@@ -138,6 +138,22 @@ spread_basis(void *arg, size_t begin, size_t end)
 	}
 }
 
+/* Where corners have six neighbours each face has some 300 pairs. */
+static mr_status
+check_valences(mr_ctx *ctx, const mr_sparse *patch)
+{
+	const double most = 2e7 + 1000 * (double)patch->n;
+	double pairs = 0;
+
+	for (size_t f = 0; f < (size_t)patch->n; f++)
+		pairs += (double)length_of(patch, f) * (double)length_of(patch, f);
+	if (pairs > most)
+		return mr_fail(ctx, MR_EMESH,
+		    "control: vertices with so many faces are coupled in %.3g pairs; at most %.3g may be", pairs,
+		    most);
+	return MR_OK;
+}
+
 mr_status
 mr_fit_system_build(
     mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, double form, mr_fit_system *system)
@@ -147,6 +163,7 @@ mr_fit_system_build(
 
 	memcpy(r.home, x, nv * sizeof *r.home);
 	MR_TRY(patches_of(ctx, surface, &r.patch));
+	MR_TRY(check_valences(ctx, &r.patch));
 	stars_of(ctx, &surface->level[0], &r.star);
 	MR_TRY(couple(ctx, &r.patch, &r.star, &r.a));
 	MR_TRY(mr_sparse_transpose(ctx, &r.star, nv, &r.around));

@@ -78,8 +78,8 @@ void mr_loop_limit(const mr_ctx *ctx, const mr_loop *l, const mr_v3 *p, mr_v3 *l
 
 /*
  * The limit points of level n's vertices as combinations of the control vertices: level[n].nv rows, each of
- * sum 1, columns below level[0].nv.  s: in the arena, above what it took to make it, a third as much again.
- * MR_ERANGE where it has 2^31 weights or more.
+ * sum 1, columns below level[0].nv.  s: in the arena, above what it took to make it.  MR_ERANGE where it has
+ * 2^31 weights or more.
  */
 mr_status mr_loop_limit_matrix(mr_ctx *ctx, const mr_loop *level, size_t n, mr_sparse *s);
 

@@ -1,142 +1,85 @@
-/* The limit points of a fine level as sparse combinations of the control vertices. */
+/* The limit points of a fine level as sparse combinations of the control vertices: a product of the masks of
+ * all levels. */
 #include "subdivide/loop_ring.h"
 
-#include "base/sort.h"
-
-/* One row: its entries add up where their column is known. */
-typedef struct row {
-	double *weight; /* of each control vertex */
-	bool *known;
-	int *index; /* those that are */
-	size_t n;
-} row;
-
-/* Rows under way: `count` of them. */
-typedef struct rows {
-	size_t count, used, room, index_room;
-	int *start, *index;
-	double *value;
-} rows;
-
+/* Adds w to the last row, which is short, at its column. */
 static void
-row_add(row *r, double w, const rows *from, uint32_t v)
+add(mr_sparse *a, uint32_t column, double w)
 {
-	for (int e = from->start[v]; e < from->start[v + 1]; e++) {
-		/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference) a row of a start has an index */
-		int i = from->index[e];
-		if (!r->known[i]) {
-			r->known[i] = true;
-			r->weight[i] = 0;
-			r->index[r->n++] = i;
-		}
-		r->weight[i] += w * from->value[e];
+	int e = a->start[a->n + 1]++;
+
+	for (; e > a->start[a->n] && a->index[e - 1] > (int)column; e--) {
+		a->index[e] = a->index[e - 1];
+		a->value[e] = a->value[e - 1];
 	}
-}
-
-/* Ends the row: it becomes the next one of `to`. */
-static mr_status
-row_end(mr_ctx *ctx, row *r, rows *to)
-{
-	if (r->n > (size_t)INT32_MAX - to->used)
-		return mr_fail(ctx, MR_ERANGE, "the limit points have more than %d weights", INT32_MAX);
-	MR_RESERVE(ctx, to->index, to->used, r->n, &to->index_room);
-	MR_RESERVE(ctx, to->value, to->used, r->n, &to->room);
-	mr_sort_indices((uint32_t *)r->index, r->n); /* of the same order: none is negative */
-	for (size_t i = 0; i < r->n; i++) {
-		to->index[to->used] = r->index[i];
-		to->value[to->used++] = r->weight[r->index[i]];
-		r->known[r->index[i]] = false;
-	}
-	r->n = 0;
-	to->start[++to->count] = (int)to->used;
-	return MR_OK;
+	a->index[e] = (int)column;
+	a->value[e] = w;
 }
 
 static void
-rows_begin(mr_ctx *ctx, size_t n, rows *a)
+end_row(mr_sparse *a)
 {
-	*a = (rows){ .start = MR_NEW(ctx, n + 1, int) };
-	a->start[0] = 0;
+	a->n++;
+	a->start[a->n + 1] = a->start[a->n];
 }
 
-/* The mask at v applied to the rows of the level. */
 static void
-row_of_mask(row *r, const mr_loop *l, uint32_t v, mr_loop_mask mask, const rows *from)
+row_of_mask(const mr_loop *l, uint32_t v, mr_loop_mask mask, mr_sparse *a)
 {
-	row_add(r, mask.self, from, v);
+	add(a, v, mask.self);
 	for (mr_loop_ring g = mr_loop_ring_begin(l, v); g.more && mask.self != 1; mr_loop_ring_step(&g)) {
 		double w = g.sharp ? mask.sharp : mask.ring;
 		if (w != 0)
-			row_add(r, w, from, g.to);
+			add(a, g.to, w);
 	}
+	end_row(a);
 }
 
 static void
-row_of_edge(row *r, const mr_loop *l, uint32_t h, const rows *from)
+row_of_edge(const mr_loop *l, uint32_t h, mr_sparse *a)
 {
 	bool sharp = mr_loop_sharp(l, h);
+	uint32_t c = mr_loop_opposite(l, h), d = sharp ? c : mr_loop_opposite(l, l->topo.twin[h]);
 
-	row_add(r, sharp ? 0.5 : 0.375, from, mr_loop_from(l, h));
-	row_add(r, sharp ? 0.5 : 0.375, from, mr_loop_to(l, h));
-	if (sharp)
-		return;
-	row_add(r, 0.125, from, mr_loop_opposite(l, h));
-	row_add(r, 0.125, from, mr_loop_opposite(l, l->topo.twin[h]));
+	add(a, mr_loop_from(l, h), sharp ? 0.5 : 0.375);
+	add(a, mr_loop_to(l, h), sharp ? 0.5 : 0.375);
+	if (!sharp)
+		add(a, c, c == d ? 0.25 : 0.125);
+	if (c != d)
+		add(a, d, 0.125);
+	end_row(a);
 }
 
-static mr_status
-refine_rows(mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, row *r, const rows *in, rows *out)
+/* By what the vertices of the next level are made of those of l; where that is NULL their limit points. */
+static void
+masks_of(mr_ctx *ctx, const mr_loop *l, const mr_loop *next, mr_sparse *a)
 {
-	rows_begin(ctx, fine->nv, out);
-	for (uint32_t v = 0; v < coarse->nv; v++) {
-		row_of_mask(r, coarse, v, mr_loop_even_mask(mr_loop_kind_of(coarse, v)), in);
-		MR_TRY(row_end(ctx, r, out));
-	}
-	for (size_t i = 0; i < fine->nv - coarse->nv; i++) {
-		row_of_edge(r, coarse, fine->edge[i], in);
-		MR_TRY(row_end(ctx, r, out));
-	}
-	return MR_OK;
-}
+	size_t rows = next ? next->nv : l->nv, room = l->nv + 6 * l->nf + 4 * (rows - l->nv);
 
-static mr_status
-limit_rows(mr_ctx *ctx, const mr_loop *l, row *r, const rows *in, rows *out)
-{
-	rows_begin(ctx, l->nv, out);
+	*a = (mr_sparse){ 0, MR_NEW_ZERO(ctx, rows + 2, int), MR_NEW(ctx, room, int),
+		MR_NEW(ctx, room, double) };
 	for (uint32_t v = 0; v < l->nv; v++) {
-		row_of_mask(r, l, v, mr_loop_limit_mask(mr_loop_kind_of(l, v)), in);
-		MR_TRY(row_end(ctx, r, out));
+		mr_loop_kind kind = mr_loop_kind_of(l, v);
+		row_of_mask(l, v, next ? mr_loop_even_mask(kind) : mr_loop_limit_mask(kind), a);
 	}
-	return MR_OK;
-}
-
-static mr_status
-identity_rows(mr_ctx *ctx, size_t n, row *r, rows *out)
-{
-	rows_begin(ctx, n, out);
-	for (size_t v = 0; v < n; v++) {
-		r->weight[v] = 1;
-		r->index[r->n++] = (int)v;
-		MR_TRY(row_end(ctx, r, out));
-	}
-	return MR_OK;
+	for (size_t i = 0; i < rows - l->nv; i++)
+		row_of_edge(l, next->edge[i], a);
 }
 
 mr_status
 mr_loop_limit_matrix(mr_ctx *ctx, const mr_loop *level, size_t n, mr_sparse *s)
 {
-	size_t nv = level[0].nv;
-	row r = { MR_NEW(ctx, nv, double), MR_NEW_ZERO(ctx, nv, bool), MR_NEW(ctx, nv, int), 0 };
-	rows a, b;
+	mr_sparse masks, product;
 
-	if (level[n].nv > INT32_MAX)
-		return mr_fail(ctx, MR_ERANGE, "%zu limit points are more than %d", level[n].nv, INT32_MAX);
-	MR_TRY(identity_rows(ctx, nv, &r, &a));
-	for (size_t i = 0; i < n; i++) {
-		MR_TRY(refine_rows(ctx, &level[i], &level[i + 1], &r, &a, &b));
-		a = b;
+	if (level[n].nv > INT32_MAX / 8)
+		return mr_fail(ctx, MR_ERANGE, "%zu limit points are too many", level[n].nv);
+	for (size_t i = 0; i <= n; i++) {
+		masks_of(ctx, &level[i], i < n ? &level[i + 1] : NULL, &masks);
+		if (i > 0) {
+			MR_TRY(mr_sparse_multiply(ctx, &masks, s, level[0].nv, &product));
+			masks = product;
+		}
+		*s = masks;
 	}
-	MR_TRY(limit_rows(ctx, &level[n], &r, &a, &b));
-	*s = (mr_sparse){ (int)b.count, b.start, b.index, b.value };
 	return MR_OK;
 }
