@@ -30,8 +30,8 @@ typedef struct mr_file_format {
 mr_status mr_model_parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data,
     size_t size, mr_model *m) MR_WARN_UNUSED;
 
-/* Text without the mark that begins UTF-8; where all lines end in CR alone, with newlines, in the arena. */
-void mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size);
+/* Passes the mark that a text in UTF-8 may begin with; a binary STL may begin with anything. */
+void mr_skip_mark(const unsigned char **data, size_t *size);
 
 bool mr_obj_sniff(const unsigned char *data, size_t size);
 mr_status mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);

@@ -139,24 +139,12 @@ mr_format_stem(mr_ctx *ctx, const char *path)
 /* ---- reading ---- */
 
 void
-mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
+mr_skip_mark(const unsigned char **data, size_t *size)
 {
-	const unsigned char *p = *data;
-	unsigned char *copy;
-	size_t head;
-
-	if (*size == 0 || mr_stl_is_binary(p, *size)) /* begins with anything */
-		return;
-	if (*size > 3 && !memcmp(p, "\xef\xbb\xbf", 3)) {
-		*data = p += 3;
+	if (*size > 3 && !mr_stl_is_binary(*data, *size) && !memcmp(*data, "\xef\xbb\xbf", 3)) {
+		*data += 3;
 		*size -= 3;
 	}
-	head = *size < 65536 ? *size : 65536;
-	if (memchr(p, '\n', head) || !memchr(p, '\r', head) || memchr(p, 0, head))
-		return;
-	*data = copy = mr_alloc(ctx, *size, 1);
-	for (size_t i = 0; i < *size; i++)
-		copy[i] = p[i] == '\r' ? '\n' : p[i];
 }
 
 /* Whether the bytes are of the format. */
@@ -228,7 +216,7 @@ parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *da
 	const mr_file_format *f = NULL;
 	mr_model got = { 0 };
 
-	mr_as_text(ctx, &data, &size);
+	mr_skip_mark(&data, &size);
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));
 	MR_TRY(f->read(ctx, data, size, &got));
 	if (got.nv == 0)

@@ -241,10 +241,7 @@ name_of(const char *path)
 static const char *
 material_begins(mr_ctx *ctx, const char *name)
 {
-	bool goes_on = *name && name[strlen(name) - 1] == '\\'; /* the line, but for a blank behind that */
-
-	return mr_format(ctx, "newmtl %s%s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm ", name,
-	    goes_on ? " " : "", name);
+	return mr_format(ctx, "newmtl %s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm ", name, name);
 }
 
 /* disp and its option -mm (Wavefront, "Advanced Visualizer", appendix B2): a texel's value is times the gain

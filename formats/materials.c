@@ -38,12 +38,10 @@ find_file(const finder *f, const char *name, size_t bytes)
 	char *here = mr_format(f->ctx, "%.*s", (int)bytes, name);
 	const char *last, *path;
 
-	for (char *c = here; c && *c; c++)
+	for (char *c = here; *c; c++)
 		if (*c == '\\')
 			*c = '/';
-	path = here ? mr_format(f->ctx, "%s/%s", f->folder, here) : NULL;
-	if (!path)
-		return NULL;
+	path = mr_format(f->ctx, "%s/%s", f->folder, here);
 	if (*here != '/' && !strstr(here, "..") && is_file(path))
 		return path;
 	last = strrchr(here, '/');
@@ -146,7 +144,7 @@ statements(finder *f, size_t count, const unsigned char *data, size_t size)
 	mr_scan text, line;
 
 	MR_ENTER(f->ctx);
-	mr_as_text(f->ctx, &data, &size);
+	mr_skip_mark(&data, &size);
 	if (size && memchr(data, 0, size))
 		return mr_fail(f->ctx, MR_EFORMAT, "a zero byte: not a text file");
 	f->current = NULL;
@@ -176,27 +174,17 @@ read_library(finder *f, size_t count, const char *path)
 	return mr_prefix(f->ctx, mr_file_bytes_end(&b, statements(f, count, b.data, b.size)), "%s", path);
 }
 
-/* A line names one file, whose name may have blanks in it, or several. */
+/* A line names one file, whose name may have blanks in it. */
 static mr_status
 read_libraries(finder *f, size_t count, mr_lines files)
 {
 	mr_scan text = mr_scan_of(f->ctx, (const unsigned char *)files.text, files.bytes), line;
 
 	while (mr_scan_line(&text, &line)) {
-		const char *path = find_file(f, line.p, (size_t)(line.end - line.p)), *name;
-		bool there = true;
-		size_t n;
-		if (path) {
+		const char *path = find_file(f, line.p, (size_t)(line.end - line.p));
+		if (path)
 			MR_TRY(read_library(f, count, path));
-			continue;
-		}
-		for (mr_scan words = line; mr_scan_word(&words, &name, &n);) {
-			path = find_file(f, name, n);
-			there = there && path;
-			if (path)
-				MR_TRY(read_library(f, count, path));
-		}
-		mr_tell(f->ctx, MR_MISSING, !there, "%.*s", (int)(line.end - line.p), line.p);
+		mr_tell(f->ctx, MR_MISSING, !path, "%.*s", (int)(line.end - line.p), line.p);
 	}
 	return MR_OK;
 }

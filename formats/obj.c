@@ -28,44 +28,6 @@ typedef struct obj {
 
 /* ---- lines ---- */
 
-/* Behind a backslash, unless that ends a comment. */
-static bool
-continues(const char *begin, const char *end)
-{
-	if (end == begin || end[-1] != '\\')
-		return false;
-	for (const char *p = begin; (p = memchr(p, '#', (size_t)(end - p))); p++)
-		if (p == begin || mr_is_blank(p[-1]))
-			return false;
-	return true;
-}
-
-/* The text with lines that go on behind a backslash put together, and empty ones in place of what follows:
- * each keeps its number.  In the arena where there are such lines. */
-static void
-unfold(mr_scan *t)
-{
-	mr_scan rest = *t, line;
-	size_t empty = 0;
-	char *to;
-
-	if (!memchr(t->p, '\\', (size_t)(t->end - t->p)))
-		return;
-	to = mr_alloc(t->ctx, (size_t)(t->end - t->p) + 1, 1);
-	*t = (mr_scan){ t->ctx, to, to, to, false };
-	while (mr_scan_line(&rest, &line)) {
-		size_t n = (size_t)(line.end - line.p);
-		bool more = continues(line.p, line.end) && rest.p < rest.end;
-		memcpy(to, line.p, n);
-		to += n;
-		if (more)
-			to[-1] = ' ';
-		for (empty++; !more && empty > 0; empty--)
-			*to++ = '\n';
-	}
-	t->end = to;
-}
-
 static bool
 begins(const mr_scan *line, const char *word)
 {
@@ -491,7 +453,6 @@ mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	};
 	mr_obj_calls calls = { line_call, face_call, &o };
 
-	unfold(&o.text);
 	count_lines(&o);
 	if (o.vn_all >= MR_NONE || o.vt_all >= MR_NONE)
 		return mr_fail(ctx, MR_ERANGE, "more normals or texture coordinates than indices can name");

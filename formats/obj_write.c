@@ -86,16 +86,6 @@ put_corner(mr_sink *s, const mr_model *m, const values x[2], uint32_t corner)
 
 /* ---- what faces are marked with ---- */
 
-/* To the end of the line, which would go on behind a backslash. */
-static void
-put_name(mr_sink *s, const char *name, size_t n)
-{
-	mr_put(s, name, n);
-	if (n && name[n - 1] == '\\')
-		mr_put(s, " ", 1);
-	mr_put(s, "\n", 1);
-}
-
 typedef struct marks {
 	const char *word, *what; /* of the statement; of a number without a name */
 	const uint32_t *of;
@@ -119,7 +109,8 @@ put_mark(mr_sink *s, marks *k, size_t f)
 		mr_print(s, "%s %s%u\n", k->word, k->what, (unsigned)i);
 	else {
 		mr_print(s, n ? "%s " : "%s", k->word);
-		put_name(s, k->start[i], n);
+		mr_put(s, k->start[i], n);
+		mr_put(s, "\n", 1);
 	}
 }
 
@@ -172,7 +163,8 @@ put_libraries(mr_sink *s, mr_lines files)
 	while (p < end) {
 		const char *e = memchr(p, '\n', (size_t)(end - p));
 		mr_put(s, "mtllib ", 7);
-		put_name(s, p, (size_t)((e ? e : end) - p));
+		mr_put(s, p, (size_t)((e ? e : end) - p));
+		mr_put(s, "\n", 1);
 		p = e ? e + 1 : end;
 	}
 }

@@ -1,8 +1,6 @@
 /*
  * Object File Format (Geomview): the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, says what a
- * vertex has besides its position; -f off reads a file without it, too.  Binary files are big-endian with a
- * number of colour components behind each face, as Geomview has them, or little-endian without, as others
- * write them.
+ * vertex has besides its position; -f off reads a file without it, too.
  */
 #include "formats/format.h"
 
@@ -48,10 +46,6 @@ keyword(off *f)
 	if (t.p < t.end && !mr_is_blank(*t.p) && *t.p != '\n' && *t.p != '#' && !mr_is_digit(*t.p))
 		return false;
 	f->text.p = t.p;
-	mr_skip_blanks(&t);
-	f->text.binary = take(&t, "BINARY");
-	if (f->text.binary && mr_scan_line(&t, &(mr_scan){ 0 }))
-		f->text.p = t.p;
 	return true;
 }
 
@@ -99,7 +93,7 @@ line_rest(off *f, double *x, size_t most, size_t *count)
 
 /* x y z [nx ny nz] [r g b [a]] [s t], on one line from the third number on. */
 static mr_status
-text_vertex(off *f)
+read_vertex(off *f)
 {
 	size_t n = 3, rest = 0, colors, wanted = f->texcoords ? 2 : 0;
 	double x[MOST] = { 0 }, more[8] = { 0 };
@@ -130,7 +124,7 @@ text_vertex(off *f)
 /* ---- faces ---- */
 
 static mr_status
-text_face(off *f)
+read_face(off *f)
 {
 	const char *where, *e;
 	uint64_t n, v;
@@ -163,7 +157,7 @@ text_face(off *f)
 
 /* Vertices, faces and, which nobody needs, edges: on one line. */
 static mr_status
-text_counts(off *f)
+read_counts(off *f)
 {
 	uint64_t edges;
 	size_t left;
@@ -184,93 +178,6 @@ text_counts(off *f)
 	return MR_OK;
 }
 
-static mr_status
-read_text(off *f)
-{
-	MR_TRY(text_counts(f));
-	MR_TRY(begin_vertices(f));
-	MR_TRY(mr_build_reserve(&f->b, f->nf < MR_NONE / 3 ? (size_t)f->nf : 0));
-	for (uint64_t i = 0; i < f->nv; i++)
-		MR_TRY(text_vertex(f));
-	mr_rows_end(&f->rows);
-	for (uint64_t i = 0; i < f->nf; i++)
-		MR_TRY(text_face(f));
-	mr_skip_comments(&f->text);
-	mr_scan_rest(&f->text);
-	return MR_OK;
-}
-
-/* ---- binary ---- */
-
-/* `words` of four bytes from p on; MR_EFORMAT where the file ends before them. */
-static mr_status
-need(const off *f, const unsigned char *p, uint64_t words)
-{
-	size_t left = (size_t)((const unsigned char *)f->text.end - p);
-
-	return words <= left / 4 ? MR_OK
-	                         : mr_scan_fail(&f->text, p, "%llu numbers cannot be in %zu bytes",
-				       (unsigned long long)words, left);
-}
-
-static mr_status
-binary_face(off *f, const unsigned char **at, bool big)
-{
-	const unsigned char *p = *at;
-	size_t n;
-
-	MR_TRY(need(f, p, 1));
-	n = mr_load32(p, big);
-	p += 4;
-	MR_TRY(need(f, p, (uint64_t)n + big));
-	MR_RESERVE(f->ctx, f->corner, 0, n, &f->corner_room);
-	for (size_t k = 0; k < n; k++, p += 4) {
-		f->corner[k] = mr_load32(p, big);
-		if (f->corner[k] >= f->nv)
-			return mr_scan_fail(&f->text, p, "vertex %u of %zu", f->corner[k], f->b.nv);
-	}
-	if (big) {
-		size_t colors = mr_load32(p, big);
-		f->face_colors += colors > 0;
-		p += 4;
-		MR_TRY(need(f, p, colors));
-		p += 4 * colors;
-	}
-	mr_build_face(&f->b, f->corner, NULL, NULL, n);
-	*at = p;
-	return MR_OK;
-}
-
-static mr_status
-read_binary(off *f)
-{
-	const unsigned char *p = (const unsigned char *)f->text.p;
-	const size_t width = (f->normals ? 6u : 3u) + (f->colors ? 4u : 0u) + (f->texcoords ? 2u : 0u);
-	double x[MOST];
-	bool big;
-
-	MR_TRY(need(f, p, 3));
-	big = mr_load32(p, false) > (size_t)(f->text.end - f->text.p) / 12; /* no other order has room */
-	f->nv = mr_load32(p, big);
-	f->nf = mr_load32(p + 4, big);
-	p += 12;
-	MR_TRY(need(f, p, width * f->nv));
-	MR_TRY(begin_vertices(f));
-	for (uint64_t i = 0; i < f->nv; i++) {
-		for (size_t k = 0; k < width; k++, p += 4)
-			x[k] = mr_load_float(p, big);
-		if (!mr_finite(mr_rows_position(&f->rows, x)))
-			return mr_scan_fail(&f->text, p - 4 * width, "a coordinate is not finite");
-		mr_rows_put(&f->rows, x);
-	}
-	mr_rows_end(&f->rows);
-	for (uint64_t i = 0; i < f->nf; i++)
-		MR_TRY(binary_face(f, &p, big));
-	f->text.p = (const char *)p;
-	mr_scan_rest(&f->text);
-	return MR_OK;
-}
-
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
@@ -278,7 +185,16 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 	f.rows.b = &f.b;
 	keyword(&f);
-	MR_TRY(f.text.binary ? read_binary(&f) : read_text(&f));
+	MR_TRY(read_counts(&f));
+	MR_TRY(begin_vertices(&f));
+	MR_TRY(mr_build_reserve(&f.b, f.nf < MR_NONE / 3 ? (size_t)f.nf : 0));
+	for (uint64_t i = 0; i < f.nv; i++)
+		MR_TRY(read_vertex(&f));
+	mr_rows_end(&f.rows);
+	for (uint64_t i = 0; i < f.nf; i++)
+		MR_TRY(read_face(&f));
+	mr_skip_comments(&f.text);
+	mr_scan_rest(&f.text);
 	mr_lost(ctx, NULL, f.face_colors, "colors of faces");
 	mr_lost(ctx, NULL, f.ignored, "numbers behind vertices");
 	return mr_build_finish(&f.b, m);

@@ -1,6 +1,6 @@
 /*
  * Stanford PLY, read: G. Turk, The PLY polygon file format, 1994.  Text and both byte orders, properties of
- * any type in any order, lists, triangle strips.  Numbers of vertices and faces that are nothing to us are
+ * any type in any order, lists.  Numbers of vertices and faces that are nothing to us are
  * kept under their names; other lists and elements are passed over.
  */
 #include "formats/format.h"
@@ -24,7 +24,7 @@ typedef struct property {
 	size_t kept; /* of a face's: its number from 1 among the properties of the builder; 0: none of them */
 } property;
 
-typedef enum kind { OTHER, VERTEX, FACE, STRIPS } kind;
+typedef enum kind { OTHER, VERTEX, FACE, KINDS } kind;
 
 typedef struct element {
 	kind kind;
@@ -61,20 +61,14 @@ typedef struct ply {
 	size_t textures; /* that are left out */
 } ply;
 
-/* The property of a role, or NULL. */
-static inline const property *
-find(const element *e, role r)
-{
-	for (size_t i = 0; i < e->properties; i++)
-		if (e->property[i].role == r)
-			return &e->property[i];
-	return NULL;
-}
-
-static inline bool
+static bool
 has(const element *e, role r)
 {
-	return find(e, r);
+	size_t i = 0;
+
+	while (i < e->properties && e->property[i].role != r)
+		i++;
+	return i < e->properties;
 }
 
 /* ---- the header ---- */
@@ -83,10 +77,11 @@ static const type_name types[TYPES] = { { "char", "int8", 1, 'I' }, { "uchar", "
 	{ "short", "int16", 2, 'I' }, { "ushort", "uint16", 2, 'U' }, { "int", "int32", 4, 'I' },
 	{ "uint", "uint32", 4, 'U' }, { "float", "float32", 4, 'F' }, { "double", "float64", 8, 'F' } };
 
-static bool
-is_word(const char *w, size_t n, const char *word)
+/* The next word of a line, which `what` lacks where there is none. */
+static mr_status
+header_word(ply *f, mr_scan *line, const char *what, const char **w, size_t *n)
 {
-	return n == strlen(word) && !memcmp(w, word, n);
+	return mr_scan_word(line, w, n) ? MR_OK : mr_scan_fail(&f->text, line->p, "%s", what);
 }
 
 static mr_status
@@ -96,29 +91,20 @@ header_type(ply *f, mr_scan *line, type *t)
 	const char *w;
 	size_t n;
 
-	if (!mr_scan_word(line, &w, &n))
-		return mr_scan_fail(&f->text, line->p, "a property lacks its type");
+	MR_TRY(header_word(f, line, "a property lacks its type", &w, &n));
 	for (*t = 0; *t < TYPES; ++*t)
-		if (is_word(w, n, types[*t].name) || is_word(w, n, types[*t].alias))
+		if (mr_word_is(w, n, types[*t].name) || mr_word_is(w, n, types[*t].alias))
 			return MR_OK;
 	return mr_scan_fail(&f->text, w, "'%s' is no type of PLY", mr_word_shown(w, n, shown));
 }
 
+/* Of a list of faces. */
 static role
-role_of(kind k, bool list, const char *w, size_t n)
+role_of(const char *w, size_t n)
 {
-	static const struct {
-		bool list;
-		role role;
-		const char *name;
-	} roles[] = { { true, INDICES, "vertex_indices" }, { true, INDICES, "vertex_index" },
-		{ true, UVS, "texcoord" } };
-
-	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-		if (roles[i].list == list && is_word(w, n, roles[i].name) &&
-		    (k == FACE || (k == STRIPS && i < 2)))
-			return roles[i].role;
-	return NONE;
+	if (mr_word_is(w, n, "vertex_indices") || mr_word_is(w, n, "vertex_index"))
+		return INDICES;
+	return mr_word_is(w, n, "texcoord") ? UVS : NONE;
 }
 
 static mr_status
@@ -138,13 +124,11 @@ header_property(ply *f, mr_scan *line)
 			return mr_scan_fail(&f->text, line->p, "the length of a list is not of a whole type");
 	}
 	MR_TRY(header_type(f, line, &p.value));
-	if (!mr_scan_word(line, &w, &n))
-		return mr_scan_fail(&f->text, line->p, "a property lacks its name");
-	p.role = role_of(e->kind, p.list, w, n);
+	MR_TRY(header_word(f, line, "a property lacks its name", &w, &n));
+	p.role = e->kind == FACE && p.list ? role_of(w, n) : NONE;
 	p.name = mr_clean_copy(f->ctx, w, n);
-	for (size_t i = 0; i < e->properties && p.role != NONE; i++)
-		if (e->property[i].role == p.role)
-			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */
+	if (has(e, p.role))
+		p.role = NONE; /* the first of a name counts */
 	if (p.role == INDICES && p.value >= FLOAT)
 		return mr_scan_fail(&f->text, w, "indices are not of a whole type");
 	MR_RESERVE(f->ctx, e->property, e->properties, 1, &e->room);
@@ -155,18 +139,17 @@ header_property(ply *f, mr_scan *line)
 static mr_status
 header_element(ply *f, mr_scan *line)
 {
+	static const char *const kinds[KINDS] = { "", "vertex", "face" };
 	element e = { 0 };
 	const char *w;
 	size_t n;
 
-	if (!mr_scan_word(line, &w, &n))
-		return mr_scan_fail(&f->text, line->p, "an element lacks its name");
+	MR_TRY(header_word(f, line, "an element lacks its name", &w, &n));
 	mr_word_shown(w, n, e.name);
 	MR_TRY(mr_scan_count(line, "the number of an element", UINT64_MAX / 16, &e.rows));
-	e.kind = is_word(w, n, "vertex")      ? VERTEX
-	         : is_word(w, n, "face")      ? FACE
-	         : is_word(w, n, "tristrips") ? STRIPS
-	                                      : OTHER;
+	for (kind k = VERTEX; k < KINDS; k++)
+		if (mr_word_is(w, n, kinds[k]))
+			e.kind = k;
 	for (size_t i = 0; i < f->elements; i++)
 		if (e.kind != OTHER && f->element[i].kind == e.kind)
 			return mr_scan_fail(&f->text, w, "element %s is there twice", e.name);
@@ -182,11 +165,10 @@ header_format(ply *f, mr_scan *line, bool *seen)
 	const char *w;
 	size_t n;
 
-	if (!mr_scan_word(line, &w, &n))
-		return mr_scan_fail(&f->text, line->p, "the format lacks its name");
-	f->binary = !is_word(w, n, "ascii");
-	f->big = is_word(w, n, "binary_big_endian");
-	if (f->binary && !f->big && !is_word(w, n, "binary_little_endian"))
+	MR_TRY(header_word(f, line, "the format lacks its name", &w, &n));
+	f->binary = !mr_word_is(w, n, "ascii");
+	f->big = mr_word_is(w, n, "binary_big_endian");
+	if (f->binary && !f->big && !mr_word_is(w, n, "binary_little_endian"))
 		return mr_scan_fail(&f->text, w, "'%s' is no format of PLY", mr_word_shown(w, n, shown));
 	if (!mr_scan_accept(line, "1.0"))
 		return mr_scan_fail(&f->text, line->p, "the format's version is not 1.0");
@@ -370,9 +352,8 @@ pass_list(ply *f, const property *p)
 
 /* ---- faces ---- */
 
-/* A list of indices; -1 ends a strip. */
 static mr_status
-read_indices(ply *f, const property *p, bool strips)
+read_indices(ply *f, const property *p)
 {
 	size_t n = 0, size = types[p->value].bytes;
 
@@ -397,9 +378,7 @@ read_indices(ply *f, const property *p, bool strips)
 			x = (double)at;
 		} else
 			MR_TRY(next_value(f, p->value, &x));
-		if (strips && x == -1)
-			f->indices[i] = MR_NONE;
-		else if (x >= 0 && x < (double)f->b.nv && x == floor(x))
+		if (x >= 0 && x < (double)f->b.nv && x == floor(x))
 			f->indices[i] = (uint32_t)x;
 		else
 			return mr_scan_fail(&f->text, where, "vertex %.17g of %zu", x, f->b.nv);
@@ -440,35 +419,11 @@ places_of(ply *f, corner_list *l, const uint32_t **places)
 	l->had = l->count;
 }
 
-/* The triangles of strips; those that name a vertex twice only join strips. */
 static void
-add_strips(ply *f)
-{
-	const uint32_t *s = f->indices;
-	size_t length = 0;
-
-	for (size_t i = 0; i < f->indices_count; i++) {
-		bool odd;
-		uint32_t t[3];
-		length = s[i] == MR_NONE ? 0 : length + 1;
-		if (length < 3)
-			continue;
-		odd = (length & 1) == 0; /* every other one is turned over */
-		t[0] = s[i - 2 + odd], t[1] = s[i - 1 - odd], t[2] = s[i];
-		if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-			mr_build_face(&f->b, t, NULL, NULL, 3);
-	}
-}
-
-static void
-add_face(ply *f, kind k)
+add_face(ply *f)
 {
 	const uint32_t *c = f->indices, *uv;
 
-	if (k == STRIPS) {
-		add_strips(f);
-		return;
-	}
 	places_of(f, &f->uv, &uv);
 	if (f->indices_count != 3 || uv || !mr_build_triangle(&f->b, c[0], c[1], c[2]))
 		mr_build_face(&f->b, c, uv, NULL, f->indices_count);
@@ -492,7 +447,7 @@ read_value(ply *f, const element *e, uint64_t row, size_t i)
 	const property *p = &e->property[i];
 
 	if (p->role == INDICES)
-		return read_indices(f, p, e->kind == STRIPS);
+		return read_indices(f, p);
 	if (p->role == UVS)
 		return read_corners(f, p, &f->uv);
 	if (p->list)
@@ -544,7 +499,7 @@ begin_element(ply *f, const element *e)
 		return mr_scan_fail(&f->text, here(f), "element %s has no list of vertex_indices", e->name);
 	if (e->rows && !f->vertices)
 		return mr_scan_fail(&f->text, here(f), "element %s before the vertices is not read", e->name);
-	return mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
+	return mr_build_reserve(&f->b, e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
 }
 
 static mr_status
@@ -557,8 +512,8 @@ read_element(ply *f, const element *e)
 		MR_TRY(read_row(f, e, row));
 		if (e->kind == VERTEX)
 			MR_TRY(put_vertex(f, where));
-		else if (e->kind != OTHER)
-			add_face(f, e->kind);
+		else if (e->kind == FACE)
+			add_face(f);
 		if (f->b.faces > faces)
 			keep_row(f, e, faces);
 	}

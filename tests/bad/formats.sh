@@ -58,8 +58,6 @@ quick 'off with a comment' 0 20 f
 quick 'xyz with blanks' 0 20 f
 blanks '\n' >f
 quick 'newlines' 1 20 f
-{ echo 'v 0 0 0'; yes '\' | head -c 40000000; } >f
-quick 'obj with lines that go on' 1 20 f
 
 # Polygons: a star of 100,000 corners, one that crosses itself everywhere, and one that names a vertex over and over.
 awk 'BEGIN { n = 100000; for (i = 0; i < n; i++) { r = 1 + i % 2; a = i * 6.283185307179586 / n; print "v", r * cos(a), r * sin(a), 0 }

@@ -23,12 +23,9 @@ printf 'newmtl B\nmap_Kd -s 2 2 2 -o 0 0.5 -mm 0 1 text.png\n' >m.mtl && echo te
 model B >model.obj
 colors
 
-echo '-- with a mark, CR alone'
+echo '-- with a mark'
 model red blue >model.obj
-printf '\357\273\277newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n' >text
-cp text m.mtl
-colors
-tr '\n' '\r' <text >m.mtl
+printf '\357\273\277newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n' >m.mtl
 colors
 
 echo '-- what is not there' >&2

@@ -2,8 +2,8 @@
 printf 'mtllib m\351.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nusemtl rot\351\nf 1 2 3\nusemtl rot\350\nf 2 4 3\nusemtl a\tb\nf 1 2 4\nusemtl 50%% \303\251 %%E9\nf 1 3 4\n' >model.obj
 mr-import model.obj | mr-export -f obj - | grep -e usemtl -e mtllib
 
-echo 'a backslash at the end of a name is no continued line'
-printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\no back\\ \ng a\\b\nusemtl c:\\ \nf 1 2 3\n' >back.obj
+echo 'a name may end in a backslash'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\no back\\\ng a\\b\nusemtl c:\\\nf 1 2 3\n' >back.obj
 mr-import -q back.obj | mr-export -q -f obj - | cmp - back.obj && echo same
 
 echo 'what is called alike stays apart, but where files have names alone, which is said'

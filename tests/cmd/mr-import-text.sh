@@ -12,8 +12,7 @@ echo '-- rows of a PLY end with their lines'
 try "${ply}end_header\n0 0 0 255\n1 0 0 255\n"
 try "${ply}${face}end_header\n0 0 0\n1 0 0\n3 0 1 0 7\n"
 try "${ply}end_header\n0 0\n0\n1 0 0"
-echo '-- CR alone, CR LF and LF end lines'
-try '1 2 3\r4 5 6\r7 8 9\r'
+echo '-- CR LF and LF end lines'
 try '1 2 3 # one\n4 5 6\n'
 try '1 2 3\r\n4 5 6\r\r\n7 8 9\n'
 printf 'ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty uchar x\nproperty uchar y\nproperty uchar z\nend_header\n\r\r\r' >lf.ply

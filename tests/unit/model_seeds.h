@@ -54,7 +54,6 @@ typedef struct seed {
 } seed;
 
 #define LE32(n)  (char)((n)&255), (char)((n) >> 8 & 255), (char)((n) >> 16 & 255), (char)((n) >> 24 & 255)
-#define ZEROS16  0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
 #define REAL_ONE 0, 0, 0, 0, 0, 0, (char)0xf0, 0x3f
 
 /* LAS 1.2, point format 2, two points: header of 227 bytes. */
@@ -62,21 +61,6 @@ static const char las_seed[227 + 2 * 26] = { 'L', 'A', 'S',
 	'F', [24] = 1, [25] = 2, [94] = (char)227, [96] = (char)227, [104] = 2, [105] = 26, [107] = 2,
 	[131] = REAL_ONE, [139] = REAL_ONE, [147] = REAL_ONE, [227] = LE32(10), LE32(20), LE32(30), [247] = 0,
 	1, 0, 2, 0, 3, [253] = LE32(11), LE32(21), LE32(31) };
-
-/* Little-endian, as some programs write it: one triangle, no number of colours. */
-static const char off_seed[] = { 'O', 'F', 'F', ' ', 'B', 'I', 'N', 'A', 'R', 'Y', '\n', LE32(3), LE32(1),
-	LE32(0), ZEROS16, LE32(0x3f800000), ZEROS16, LE32(3), LE32(0), LE32(1), LE32(2) };
-
-static const char strips_seed[] =
-    "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty "
-    "float y\nproperty float z\nelement tristrips 1\nproperty list int int "
-    "vertex_indices\nend_header\n"
-    "\0\0\0\0\0\0\0\0\0\0\0\0"
-    "\0\0\x80\x3f\0\0\0\0\0\0\0\0"
-    "\0\0\0\0\0\0\x80\x3f\0\0\0\0"
-    "\0\0\x80\x3f\0\0\x80\x3f\0\0\0\0"
-    "\x08\0\0\0"
-    "\0\0\0\0\x01\0\0\0\x02\0\0\0\x03\0\0\0\xff\xff\xff\xff\0\0\0\0\x01\0\0\0\x02\0\0";
 
 static const char pcd_seed[] =
     "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nDATA "
@@ -99,7 +83,7 @@ static const seed seeds[] = {
 	{ NULL, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 0, 3, 1 },
 	{ NULL,
 	    "# a\n\no box\ng\nusemtl m\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
-	    "f 1/1/1 2/1/1 3//1 \\\n 4\ng a b\nf -1/-1 -2// -3\nl 1 2 3\np 1\ns off\n",
+	    "f 1/1/1 2/1/1 3//1 4\ng a b\nf -1/-1 -2// -3\nl 1 2 3\np 1\ns off\n",
 	    0, 4, 3 },
 	{ NULL,
 	    "ply\nformat ascii 1.0\ncomment group a\nelement vertex 4\nproperty double x\nproperty float "
@@ -127,7 +111,6 @@ static const seed seeds[] = {
 	    "5 0 1 2 3 4 10 0 0 1 0 1 1 0 1 0.5 0.5 0 1 0 2 9\n"
 	    "3 0 2 4 6 0 0 1 0 nan nan 9 0 0 1 0 0 1 0 1 0 0 0 0 8\n",
 	    0, 5, 4 },
-	{ NULL, strips_seed, sizeof strips_seed, 4, 3 },
 	{ NULL,
 	    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
 	    "0\nendloop\nendfacet\nendsolid a\nsolid\nfacet normal nan nan nan\nouter loop\nvertex -0 0 "
@@ -139,7 +122,6 @@ static const seed seeds[] = {
 	    "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 255 0 0\n1 0 0 0 0 1 0 255 0 255 1 0\n0 1 0 0 0 1 0 0 255 "
 	    "255 0 1\n3 0 1 2\n",
 	    0, 3, 1 },
-	{ NULL, off_seed, sizeof off_seed, 3, 1 },
 	{ NULL, "0 0 0\n1 0 0\n0 1 0\n", 0, 3, 0 },
 	{ NULL, "2\n0 0 0 10 1 2 3\n1 0 0 20 4 5 6\n", 0, 2, 0 },
 	{ NULL, "2\n0 0 0\n1 0 0\n0 0 1\n0 0 1\n", 0, 2, 0 },

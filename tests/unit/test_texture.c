@@ -91,7 +91,7 @@ materials(void **state)
 	mr_model m = { .nf = 1,
 		.material = material,
 		.materials = { names, sizeof names - 1 },
-		.mtllib = { "sub\\m.mtl gone.mtl", 18 } };
+		.mtllib = { "sub\\m.mtl\ngone.mtl", 18 } };
 	mr_material *look;
 	size_t count;
 	mr_ctx ctx;
@@ -120,7 +120,7 @@ materials(void **state)
 	assert_false(look[2].colored);
 	assert_null(look[3].file);
 	assert_string_equal(look[4].file, "folder/absolute.png");
-	assert_string_equal(heard, "1 ../outside.png\n1 sub\\m.mtl gone.mtl\n1 material green\n");
+	assert_string_equal(heard, "1 ../outside.png\n1 gone.mtl\n1 material green\n");
 	mr_ctx_free(&ctx);
 }
 
