@@ -97,7 +97,7 @@ WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) $
 	$(addsuffix .c,$(addprefix base/,ctx rotation sort) $(addprefix mesh/,creases edges mesh zorder) \
 		$(addprefix edit/,detail phong pose_basis turns) render/colormap stream/planes \
 		$(addprefix space/,bvh bvh_build geodesic predicates) \
-		$(addprefix subdivide/,displaced loop loop_limit wavelet))))
+		$(addprefix subdivide/,displaced loop loop_limit))))
 $(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
 	@mkdir -p $(@D)
 	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 \

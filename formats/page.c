@@ -8,7 +8,6 @@
 #include "formats/bytes.h"
 #include "formats/formats.h"
 #include "subdivide/displaced.h"
-#include "subdivide/wavelet.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -34,8 +33,8 @@ static const char *const texts[] = { "groups", "objects", "materials", NULL };
 /* The displaced subdivision surface of a frame; zeroed: there is none. */
 typedef struct displaced {
 	bool there;
-	bool is_mesh; /* mesh is this surface on level `at`, and need not be stored */
-	size_t n, at; /* finest level; the one to show first */
+	bool is_mesh; /* mesh is this surface, and need not be stored */
+	size_t n; /* finest level */
 	const mr_loop *level;
 	const double *height;
 	double extent; /* of the control mesh: the largest side of its box */
@@ -201,28 +200,6 @@ put_steps(mr_ctx *ctx, mr_frame *to, const mr_column *c, const whole_steps *s, m
 	return mr_frame_put(ctx, to, c->layer, c->name, shape, sums, (size_t)c->rows);
 }
 
-/*
- * Puts the heights, as steps of 24 bits of the model: on level 0 as they are, of a vertex that a finer level
- * adds the difference from what the level before predicts, which packs into less.
- */
-static mr_status
-put_heights(mr_ctx *ctx, mr_frame *to, const mr_column *height, const displaced *d, mr_text *notes)
-{
-	size_t n = d->level[d->n].nv;
-	double *x = MR_NEW(ctx, n, double), most = d->extent;
-	mr_column c = *height;
-
-	memcpy(x, d->height, n * sizeof *x);
-	mr_wavelet_analyse(ctx, d->level, d->n, x);
-	for (size_t i = 0; i < n; i++)
-		most = fmax(most, fabs(x[i]));
-	if (!isfinite(most))
-		return mr_fail(
-		    ctx, MR_ERANGE, "displacement: the heights differ by more than a number can tell");
-	c.data = x;
-	return put_steps(ctx, to, &c, &(whole_steps){ step_of(most), { 0 }, 1 }, notes);
-}
-
 /* Positions count from the corner of their box, so that they are whole steps wherever the model is. */
 static whole_steps
 steps_of_places(mr_box box)
@@ -236,6 +213,12 @@ steps_of_places(mr_box box)
 		{ rint(box.min.x / step) * step, rint(box.min.y / step) * step,
 		    rint(box.min.z / step) * step },
 		3 };
+}
+
+static bool
+is_height(const mr_column *c)
+{
+	return !strcmp(c->layer, "displacement") && !strcmp(c->name, "height");
 }
 
 static bool
@@ -266,14 +249,14 @@ clamp_places(mr_ctx *ctx, mr_frame *f, mr_column *c, whole_steps *steps)
 	return MR_OK;
 }
 
-/* Within 24 bits of the largest; of barycentric coordinates the third is what the two leave of 1. */
+/* Within 24 bits of the largest, or of `least`; of barycentric coordinates the third is what the two leave of 1. */
 static whole_steps
-steps_of_column(const mr_column *c)
+steps_of_column(const mr_column *c, double least)
 {
 	size_t n = (size_t)c->rows * c->shape.components;
 	uint8_t components = !strcmp(c->name, "detail_bary") ? 2 : c->shape.components;
 	const double *x = c->data;
-	double most = 0;
+	double most = least;
 
 	if (c->shape.type == 'u')
 		return (whole_steps){ 0, { 0 }, components };
@@ -326,29 +309,15 @@ take_column(
 	if ((c.shape.type != 'd' && c.shape.type != 'u') || !strcmp(c.layer, "handles"))
 		return mr_frame_pass(ctx, to, column);
 	MR_TRY(mr_column_decode(ctx, &c));
-	if (!strcmp(c.layer, "displacement") && !strcmp(c.name, "height"))
-		return put_heights(ctx, to, &c, d, notes);
 	if (!strcmp(c.name, "response"))
 		MR_TRY(centre_response(ctx, from, &c, centre));
 	if (is_place(&c))
 		MR_TRY(clamp_places(ctx, from, &c, &steps));
 	else
-		steps = steps_of_column(&c);
+		steps = steps_of_column(&c, is_height(&c) ? d->extent : 0);
 	if (!strcmp(c.name, "response"))
 		memcpy(steps.origin, centre, sizeof centre);
 	return steps.components ? put_steps(ctx, to, &c, &steps, notes) : mr_frame_pass(ctx, to, &c);
-}
-
-/* The level that has as many vertices and faces as the mesh; false: none. */
-static bool
-find_level(const displaced *d, const mr_mesh *mesh, size_t *at)
-{
-	for (size_t i = 0; i <= d->n; i++)
-		if (d->level[i].nv == mesh->nv && d->level[i].nf == mesh->nf) {
-			*at = i;
-			return true;
-		}
-	return false;
 }
 
 static mr_status
@@ -359,7 +328,7 @@ make_mesh(mr_ctx *ctx, mr_frame *f, const displaced *d, mr_mesh *m)
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
-	mr_domain_on(ctx, &control, d->level, d->at, &domain);
+	mr_domain_on(ctx, &control, d->level, d->n, &domain);
 	p = MR_NEW(ctx, domain.m.nv, mr_v3);
 	mr_domain_displace(ctx, &domain, d->height, 1, p);
 	*m = domain.m;
@@ -367,24 +336,21 @@ make_mesh(mr_ctx *ctx, mr_frame *f, const displaced *d, mr_mesh *m)
 	return MR_OK;
 }
 
-/* Whether mesh is, bit by bit, what mr-decode makes of the frame on one of the levels. */
+/* Whether mesh is, bit by bit, what mr-decode makes of the frame. */
 static mr_status
 compare_mesh(mr_ctx *ctx, mr_frame *f, displaced *d)
 {
+	const mr_loop *finest = &d->level[d->n];
 	mr_mesh mesh, made;
 	mr_mark mark;
 
 	MR_TRY(mr_layer_surface_or_points(ctx, f, "mesh", &mesh));
-	if (!find_level(d, &mesh, &d->at) ||
-	    memcmp(mesh.t, d->level[d->at].t, mesh.nf * sizeof *mesh.t) != 0) {
-		d->at = d->n;
+	if (finest->nv != mesh.nv || finest->nf != mesh.nf ||
+	    memcmp(mesh.t, finest->t, mesh.nf * sizeof *mesh.t) != 0)
 		return MR_OK;
-	}
 	mark = mr_mark_take(ctx);
 	MR_TRY(make_mesh(ctx, f, d, &made));
 	d->is_mesh = !memcmp(made.p, mesh.p, mesh.nv * sizeof *mesh.p);
-	if (!d->is_mesh)
-		d->at = d->n;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -409,7 +375,6 @@ get_displaced(mr_ctx *ctx, mr_frame *f, displaced *d)
 	box = mr_mesh_box(&control);
 	r.extent = fmax(box.max.x - box.min.x, fmax(box.max.y - box.min.y, box.max.z - box.min.z));
 	r.level = level;
-	r.at = r.n;
 	if (mr_layer_has(f, "mesh", "position"))
 		MR_TRY(compare_mesh(ctx, f, &r));
 	*d = r;
@@ -472,29 +437,27 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const displaced *d)
 	return MR_OK;
 }
 
-/* What mr-decode would refuse is refused here: the page trusts its numbers. */
+/* What mr-decode would refuse of a layer with a response is refused here: the page trusts its numbers. */
 static mr_status
-check_posing(mr_ctx *ctx, mr_frame *f)
+check_posing(mr_ctx *ctx, mr_frame *f, const char *layer)
 {
 	const double *response;
 	mr_handle_rows rows;
-	mr_detail detail;
-	mr_mesh base;
+	mr_mesh posed;
 
-	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
-	return mr_response_get(ctx, f, &base, &response, &rows);
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &posed));
+	return mr_response_get(ctx, f, &posed, &response, &rows);
 }
 
 static mr_status
-check_control_posing(mr_ctx *ctx, mr_frame *f)
+check_detail(mr_ctx *ctx, mr_frame *f)
 {
-	const double *response;
-	mr_handle_rows rows;
-	mr_mesh control;
+	mr_detail detail;
+	mr_mesh base;
 
-	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
-	return mr_response_get(ctx, f, &control, &response, &rows);
+	MR_TRY(check_posing(ctx, f, "base"));
+	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
+	return mr_detail_get(ctx, f, &base, &detail);
 }
 
 /* The surface of displacement goes by the name that mr-decode gives it, unless there is another mesh. */
@@ -508,47 +471,22 @@ surface_name(const mr_frame *f, const bool *shown)
 	return "mesh";
 }
 
-/* Whether base is where it was encoded: then its places say both. */
-static mr_status
-is_as_encoded(mr_ctx *ctx, mr_frame *f, bool *is)
-{
-	const mr_column *c = mr_frame_find(f, "base", "position");
-	size_t n = c->rows;
-	const void *now, *then;
-
-	MR_TRY(mr_layer_get_rows(ctx, f, "base", "position", n, &now));
-	MR_TRY(mr_layer_get_rows(ctx, f, "base", "encoded", n, &then));
-	*is = !memcmp(now, then, n * sizeof(mr_v3));
-	return MR_OK;
-}
-
 static mr_status
 take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, const displaced *d, mr_frame *to, mr_text *notes)
 {
-	for (size_t i = 0; i < from->count; i++) {
-		bool encoded = !strcmp(from->columns[i].name, "encoded"), same = false;
-		if (shown[i] && encoded)
-			MR_TRY(is_as_encoded(ctx, from, &same));
-		if (shown[i] && !same)
+	bool same;
+
+	MR_TRY(mr_layer_is_as_encoded(ctx, from, "base", &same)); /* then its places say both */
+	for (size_t i = 0; i < from->count; i++)
+		if (shown[i] && !(same && !strcmp(from->columns[i].name, "encoded")))
 			MR_TRY(take_column(ctx, from, &from->columns[i], d, to, notes));
-	}
 	if (!d->there)
 		return MR_OK;
-	mr_text_add(notes, "surface %s %zu", surface_name(from, shown), d->at);
+	mr_text_add(notes, "surface %s", surface_name(from, shown));
 	for (size_t i = 0; i <= d->n; i++)
 		mr_text_add(notes, " %zu", d->level[i].nv);
 	mr_text_add(notes, "\n");
 	return MR_OK;
-}
-
-/* Which file a frame is from, by its name without folder and suffix. */
-static void
-tell_file(mr_ctx *ctx, const char *path, mr_text *notes)
-{
-	const char *stem = path ? mr_format_stem(ctx, path) : NULL;
-
-	if (stem)
-		mr_text_add(notes, "file %s\n", stem);
 }
 
 /* What the surfaces that are shown wear, and the columns that place it. */
@@ -567,12 +505,13 @@ wear_pictures(mr_ctx *ctx, mr_frame *f, mr_page_pictures *pictures, bool *shown,
 	return MR_OK;
 }
 
-/* How columns are stored, and the file, are told in a text of no layer, `page`. */
+/* How columns are stored, and which file (without folder and suffix) they are from, are told in a text of no layer, `page`. */
 static mr_status
 take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const displaced *d, mr_frame *to,
     mr_page_result *r)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
+	const char *stem = page->from ? mr_format_stem(ctx, page->from) : NULL;
 	mr_text notes = { .ctx = ctx };
 
 	for (size_t i = 0; i < from->count; i++) {
@@ -586,7 +525,8 @@ take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const
 		r->left_out += !shown[i];
 	}
 	r->layers += d->there;
-	tell_file(ctx, page->from, &notes);
+	if (stem)
+		mr_text_add(&notes, "file %s\n", stem);
 	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
@@ -624,22 +564,6 @@ check_size(mr_ctx *ctx, off_t size, const mr_page_pictures *pictures)
 	return MR_OK;
 }
 
-/* Of a frame that fails nothing stays: others may follow. */
-static mr_status
-send_frame(mr_ctx *ctx, mr_page *page, const mr_frame *shown)
-{
-	int fd = fileno(page->file);
-	off_t before = lseek(fd, 0, SEEK_CUR);
-	mr_status status = mr_writer_put(ctx, page->writer, shown);
-
-	if (status == MR_OK)
-		status = check_size(ctx, lseek(fd, 0, SEEK_CUR), &page->pictures);
-	if (status == MR_OK)
-		return MR_OK;
-	mr_writer_skipped(page->writer);
-	return ftruncate(fd, before) || lseek(fd, before, SEEK_SET) < 0 ? failed(ctx) : status;
-}
-
 mr_status
 mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_page_result *result)
 {
@@ -650,12 +574,12 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	MR_TRY(find_displaced(ctx, page, frame, layers, &surface));
 	MR_TRY(check_layers(ctx, frame, layers, &surface));
 	if (is_posable(frame, layers))
-		MR_TRY(check_posing(ctx, frame));
+		MR_TRY(check_detail(ctx, frame));
 	if (is_control_posable(frame, &surface))
-		MR_TRY(check_control_posing(ctx, frame));
+		MR_TRY(check_posing(ctx, frame, "control"));
 	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown, result));
 	MR_TRY(begin(ctx, page));
-	MR_TRY(send_frame(ctx, page, &shown));
+	MR_TRY(mr_writer_put(ctx, page->writer, &shown));
 	page->frames++;
 	return MR_OK;
 }
@@ -704,6 +628,7 @@ mr_page_write(mr_ctx *ctx, mr_page *page, const char *html, const char *path, mr
 
 	MR_TRY(mr_page_pictures_check(ctx, &page->pictures));
 	MR_TRY(mr_writer_end(ctx, page->writer));
+	MR_TRY(check_size(ctx, lseek(fileno(page->file), 0, SEEK_CUR), &page->pictures));
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));
 	sink.hold = true;
 	MR_TRY(mr_sink_close(&sink, put_page(&sink, page, html)));

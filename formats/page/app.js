@@ -17,20 +17,13 @@ import { linesOf } from "./stream/stream.js";
 import { boxOf, centred, centreOf } from "./mesh/surface.js";
 
 const $ = (id) => document.getElementById(id);
-const FINE = 400000; /* faces that are about as small as pixels */
 const QUARTER = [0.5, 0.35, 1];
-
-/* The most faces of a layer. */
-function mostFaces(frames) {
-	return frames.reduce((most, frame) => Math.max(most, ...layersOf(frame).map((l) =>
-		(l.triangles ? l.triangles.rows : 0))), 0);
-}
 
 export class App {
 	/* pictures: the bytes of each. */
 	constructor(frames, pictures) {
 		this.frames = frames;
-		this.stage = new Stage($("canvas"), $("foot"), mostFaces(frames) < FINE);
+		this.stage = new Stage($("canvas"));
 		this.pictures = new Pictures(pictures, this.stage.renderer);
 		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, color: null,
 			range: null };

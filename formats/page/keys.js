@@ -57,24 +57,21 @@ function goBack(event, key, painter) {
 	return !$("pose").hidden;
 }
 
-/* The handle of a digit, or the layer: where there is no handle, and with shift. */
-function chooseNumber(event, choose) {
-	const digit = /^Digit\d$/.test(event.code) ? Number(event.code.slice(5)) : /^\d$/.test(event.key) ?
-		Number(event.key) : NaN;
-	const layer = document.querySelectorAll("#layers input")[digit - 1];
+/* The handle of a digit, or the layer where there is no handle. */
+function chooseNumber(key, choose) {
+	const layer = document.querySelectorAll("#layers input")[key - 1], chosen = /^\d$/.test(key) &&
+		choose(Number(key));
 
-	if (!event.shiftKey && choose(digit))
-		return true;
-	if (layer)
+	if (!chosen && layer)
 		layer.click();
-	return Boolean(layer);
+	return chosen || Boolean(layer);
 }
 
 /* forget(): Escape; choose(handle): whether there is such a handle; painter: what the keys of painting are for. */
 export function listen(forget, choose, painter) {
 	/* Whether the key does anything. */
 	const act = (event, key) => {
-		if (paintKey(painter, key) || chooseNumber(event, choose))
+		if (paintKey(painter, key) || chooseNumber(key, choose))
 			return true;
 		const does = key === "Escape" ? forget : KEYS[key];
 		if (does)

@@ -81,12 +81,8 @@ def brush_on_bumpy(b):
 
 
 def edits(b):
-    """Parts; grow, clear, fill; undo and redo over all of them, by buttons and keys."""
-    p, t, _ = mesh_of("parts.mrs")
-    beside = {v: set() for v in range(len(p))}
-    for f in t:
-        for v in f:
-            beside[v].update(f)
+    """Parts; clear, fill; undo and redo over all of them, by buttons and keys."""
+    p, _, _ = mesh_of("parts.mrs")
     split = min(v for v, q in enumerate(p) if q[0] > 1.2)
     b.open("parts.html")
     camera, states = Camera(p, b.canvas()), [[0] * len(p)]
@@ -98,17 +94,12 @@ def edits(b):
             % (sum(x != y for x, y in zip(got, want)), len(states)))
         states.append(want)
 
-    def ring(want, region, into):
-        grown = [v for v, r in enumerate(want) if r in into and any(want[u] == region for u in beside[v])]
-        return [region if v in set(grown) else r for v, r in enumerate(want)]
     b.press("k")
     b.press("0")
     step(lambda: b.click(*camera.pixel((0, 0, 1))), [int(v < split) for v in range(len(p))])
     b.press("1")
     seed = max(range(split), key=lambda v: p[v][2])
     step(lambda: give(b, {seed: 3}), [3 if v == seed else r for v, r in enumerate(states[-1])])
-    step(lambda: push(b, "grow"), ring(states[-1], 3, (0, 1)))
-    step(lambda: push(b, "grow"), ring(states[-1], 3, (0, 1)))
     step(lambda: push(b, "clear"), [0 if r == 3 else r for r in states[-1]])
     b.press("x")
     push(b, "clear")
@@ -184,7 +175,7 @@ def frames(b):
 
 
 def points(b):
-    """A ball about the point that is clicked; no edges, so no rings and no parts."""
+    """A ball about the point that is clicked; no edges, so no parts."""
     values = columns("points.mrs")
     p = values["points", "position"]
     b.open("points.html")
@@ -196,8 +187,7 @@ def points(b):
     got = {v for v, r in enumerate(regions_of(b)) if r == 3}
     want = {v for v, q in enumerate(p) if length(sub(q, p[near])) < 0.06 * diagonal(p)}
     check(got == want and len(got) > 5, "points: the ball has %d, not %d" % (len(got), len(want)))
-    check(b.eval("[document.getElementById('grow').disabled, document.querySelector('#tools [value=part]').hidden]")
-        == [True, True], "points have edges")
+    check(b.eval("document.querySelector('#tools [value=part]').hidden"), "points have edges")
     got = regions_of(b)
     check(read_back("points.mrs", text_of(b)) == got, "points: mr-select reads other regions")
 

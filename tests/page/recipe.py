@@ -6,7 +6,6 @@ import subprocess
 from browser import Browser
 from checks import check, columns, end
 from painted import give, push, regions_of, text_of
-from posed import pose_by
 
 
 def saved(b, button, name):
@@ -96,29 +95,6 @@ def scripts(b):
         "the script needs no stream")
 
 
-def poses(b):
-    """The pose that the page shows comes with the regions of the stream, and not with painted ones."""
-    line = "mr-pose -H 1 --rotate 0,0,1,20 --translate 0.1,0,0.05 | mr-decode"
-    for page, name, edited in (("handled", "bumpy", "control"), ("rest", "a-model", "base")):
-        b.open(page + ".html")
-        pose_by(b, line)
-        b.eval("document.getElementById('take').open = true")
-        b.settle()
-        code, said = run(saved(b, "save-script", name + ".sh"), os.path.abspath(page + ".mrs"))
-        check(code == 0, "%s: the script fails: %s" % (page, said))
-        subprocess.run(line.replace("mr-pose", "mr-pose -q", 1) + " -q -o posed.mrs", shell=True,
-            stdin=open(page + ".mrs", "rb"), check=True)
-        check(same("run/%s-painted.mrs" % name, "posed.mrs", *FORM, (edited, "position")), page
-            + ": the script gives another pose")
-    b.press("p")
-    b.press("x")
-    give(b, {0: 3, 1: 1, 2: 0})
-    b.press("z")
-    check("mr-pose" in saved(b, "save-script", "a-model.sh"), "pose: after undo there is no pose")
-    b.press("y")
-    check("mr-pose" not in saved(b, "save-script", "a-model.sh"), "pose: it is of other regions")
-
-
 def files(b):
     """A saved file comes back by mr-select."""
     regions = paint(b, "plain.html")
@@ -144,7 +120,7 @@ os.makedirs("saved", exist_ok=True)
 with Browser() as browser:
     browser.draw(False)
     browser.call("Page.setDownloadBehavior", behavior="allow", downloadPath=os.path.abspath("saved"))
-    for test in (scripts, poses, files, hostile):
+    for test in (scripts, files, hostile):
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
 end()

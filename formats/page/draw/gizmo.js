@@ -6,15 +6,11 @@ const LEAST = 0.01; /* of a scale: less is flat, or inside out, by an accident o
 const SIZE = 0.6; /* about a sixth of the picture's height to either side */
 const MODES = { move: "translate", turn: "rotate", scale: "scale" };
 
-/* A rotation as a vector along its axis, as long as its angle.  Whole turns are added until it is nearest to `near`. */
-function logarithm({ x, y, z, w }, near) {
-	const axis = new THREE.Vector3(x, y, z).multiplyScalar(w < 0 ? -2 : 2), whole = 2 * Math.PI;
-	const angle = 2 * Math.atan2(axis.length() / 2, Math.abs(w));
+/* A rotation as a vector along its axis, as long as its angle, at most half a circle. */
+function logarithm({ x, y, z, w }) {
+	const axis = new THREE.Vector3(x, y, z).multiplyScalar(w < 0 ? -2 : 2);
 
-	if (angle < 1e-6)
-		return axis.add(near.clone().setLength(whole * Math.round(near.length() / whole)));
-	axis.normalize();
-	return axis.multiplyScalar(angle + whole * Math.round((axis.dot(near) - angle) / whole));
+	return axis.setLength(2 * Math.atan2(axis.length() / 2, Math.abs(w)));
 }
 
 export class Gizmo {
@@ -54,12 +50,11 @@ export class Gizmo {
 			this.at.position.fromArray(grip.centre.map((x, c) => x + grip.translate[c] - centre[c]));
 			this.at.quaternion.setFromAxisAngle(grip.turn.clone().normalize(), grip.turn.length());
 			this.at.scale.fromArray(grip.scale);
-			this.turn = grip.turn;
 		}
 		this.offer(this.offered !== false);
 	}
 
-	/* Beside each other layers have no one place for it. */
+	/* Whether handles can be dragged: not while the left button paints. */
 	offer(on) {
 		this.offered = on;
 		if (on && this.grip)
@@ -70,14 +65,13 @@ export class Gizmo {
 		this.stage.ask();
 	}
 
-	/* Where it has been dragged: { translate, turn, scale }, turns beyond half a circle counted. */
+	/* Where it has been dragged: { translate, turn, scale }. */
 	read() {
 		const place = this.at.position.toArray();
 
-		this.turn = logarithm(this.at.quaternion, this.turn);
 		return {
 			translate: place.map((x, c) => x + this.centre[c] - this.grip.centre[c]),
-			turn: this.turn,
+			turn: logarithm(this.at.quaternion),
 			scale: this.at.scale.toArray().map((x) => Math.max(x, LEAST)),
 		};
 	}

@@ -4,7 +4,6 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Gizmo } from "./gizmo.js";
 
 const ANGLE = 30; /* degrees, of the height of the picture */
-const LOW = 440; /* pixels of a window in which nothing is to lie over the model: of a phone on its side */
 
 /* Whether the browser can draw at all. */
 export function canDraw() {
@@ -25,11 +24,9 @@ function lightUp(scene, camera) {
 }
 
 export class Stage {
-	/* foot: lies over the canvas; smooth: whether edges are, which costs four times the pixels. */
-	constructor(canvas, foot, smooth) {
+	constructor(canvas) {
 		this.canvas = canvas;
-		this.foot = foot;
-		this.renderer = new THREE.WebGLRenderer({ canvas, antialias: smooth, alpha: true });
+		this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
 		this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 		this.scene = new THREE.Scene();
 		this.camera = new THREE.PerspectiveCamera(ANGLE, 1, 1, 10);
@@ -37,11 +34,8 @@ export class Stage {
 		this.gizmo = new Gizmo(this);
 		this.up("y");
 		this.layers = []; /* [name, drawn], those to be seen */
-		this.paints = false;
 		this.radius = 1;
-		const observer = new ResizeObserver(() => this.resize());
-		observer.observe(canvas);
-		observer.observe(foot);
+		new ResizeObserver(() => this.resize()).observe(canvas);
 	}
 
 	/* Which axis is upwards. */
@@ -77,12 +71,6 @@ export class Stage {
 		this.ask();
 	}
 
-	/* Whether handles can be dragged: not while the left button paints. */
-	offer(paints = this.paints) {
-		this.paints = paints;
-		this.gizmo.offer(!paints);
-	}
-
 	/* Puts layers, [name, drawn], on the stage. */
 	show(layers) {
 		for (const [, drawn] of this.layers)
@@ -90,17 +78,12 @@ export class Stage {
 		for (const [, drawn] of layers)
 			this.scene.add(drawn.group);
 		this.layers = layers;
-		this.offer();
 		this.ask();
 	}
 
-	/* Where in the window the picture is: all of the canvas, or, of a low one, what is above the foot. */
+	/* Where in the window the picture is. */
 	place() {
-		const { left, top } = this.canvas.getBoundingClientRect(),
-			{ clientWidth: width, clientHeight: whole } = this.canvas;
-
-		return { left, top, width, height: whole < LOW ?
-			Math.max(this.foot.getBoundingClientRect().top - top, 1) : whole };
+		return this.canvas.getBoundingClientRect();
 	}
 
 	aspect() {
@@ -132,15 +115,14 @@ export class Stage {
 	}
 
 	draw() {
-		const { width, height } = this.place(),
-			pixels = height * this.renderer.getPixelRatio() / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
+		const height = this.canvas.clientHeight * this.renderer.getPixelRatio(),
+			pixels = height / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
 
 		cancelAnimationFrame(this.asked);
 		this.asked = 0;
 		this.aim();
 		for (const [, drawn] of this.layers)
 			drawn.scale(pixels);
-		this.renderer.setViewport(0, this.canvas.clientHeight - height, width, height);
 		this.renderer.render(this.scene, this.camera);
 	}
 

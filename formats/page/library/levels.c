@@ -1,7 +1,6 @@
 /* The levels of a displaced subdivision surface, for the page: each is made when it is asked for. */
 #include "formats/page/library/export.h"
 #include "subdivide/displaced.h"
-#include "subdivide/wavelet.h"
 
 typedef struct levels {
 	mr_ctx ctx;
@@ -33,14 +32,6 @@ levels_triangles(levels *l, size_t n)
 		if (mr_loop_refine(&l->ctx, &l->level[l->made], &l->level[l->made + 1]) != MR_OK)
 			return NULL;
 	return l->level[n].t;
-}
-
-/* Heights on level n, which is made, from their coefficients: changed in place. */
-MR_EXPORT(levels_heights)
-void
-levels_heights(levels *l, size_t n, double *height)
-{
-	mr_wavelet_synthesize(&l->ctx, l->level, n, height);
 }
 
 /* The surface on level n, which is made, over the control mesh at p, with these heights. */

@@ -1,7 +1,7 @@
 /*
  * levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it from control mesh and heights: a
  * layer whose columns are computed when they are asked for, on the level that is chosen.  The page's text names the
- * layer, and the level that it has at first.
+ * layer.
  */
 import { Column } from "../stream/codec.js";
 import { library } from "../library/compile.js";
@@ -54,24 +54,9 @@ class Surface {
 			3 * this.parts.triangles.rows * 4 ** level);
 	}
 
-	/* Heights from how much each differs from what the level before predicts. */
-	async heights(level) {
-		const differences = (await this.parts.height.values()).subarray(0, this.vertices[level]);
-		const { levels } = await this.make(level), at = library.put(differences);
-
-		library.run.levels_heights(levels, level, at);
-		const heights = library.get(Float64Array, at, differences.length);
-		library.free(at);
-		return heights;
-	}
-
-	async positions(level) {
-		return this.positionsOver(level, await this.parts.position.values());
-	}
-
 	/* Over the control mesh at p. */
 	async positionsOver(level, p) {
-		const height = await this.at(level).height.values();
+		const height = (await this.parts.height.values()).subarray(0, this.vertices[level]);
 		const { levels } = await this.make(level), places = [library.put(p), library.put(height),
 			library.take(24 * height.length)];
 
@@ -83,16 +68,14 @@ class Surface {
 
 	/* The columns of a level. */
 	at(level) {
-		const vertex = { element: "v", type: "d", rows: this.vertices[level] };
-
 		this.columns[level] = this.columns[level] || {
-			position: new Made(this.layer, "position", { ...vertex, components: 3 }, () =>
-				this.positions(level)),
+			position: new Made(this.layer, "position",
+				{ element: "v", type: "d", components: 3, rows: this.vertices[level] },
+				async () => this.positionsOver(level, await this.parts.position.values())),
 			triangles: new Made(this.layer, "triangles",
 				{ element: "f", type: "u", components: 3,
 					rows: this.parts.triangles.rows * 4 ** level },
 				() => this.triangles(level)),
-			height: new Made(this.layer, "height", { ...vertex, components: 1 }, () => this.heights(level)),
 			others: new Map(),
 		};
 		return this.columns[level];
@@ -126,23 +109,22 @@ function surfaceOver(layer, vertices, parts) {
 
 /* Gives a frame the surface that the page's text tells of, if it does. */
 export function addLevels(frame) {
-	const { layer, level, vertices } = frame.displaced || {};
+	const { layer, vertices } = frame.displaced || {};
 	const parts = { height: columnOf(frame, HEIGHTS, "height") };
 
 	if (!frame.displaced)
 		return;
 	for (const name of ["position", "triangles", "crease"])
 		parts[name] = columnOf(frame, "control", name);
-	const others = [...frame.columns.values()].filter((c) => (c.layer === HEIGHTS || c.layer === layer) &&
-		c !== parts.height);
-	frame.levels = { surface: surfaceOver(layer, vertices, parts), first: level, others };
+	const others = [...frame.columns.values()].filter((c) => c.layer === HEIGHTS || c.layer === layer);
+	frame.levels = { surface: surfaceOver(layer, vertices, parts), others };
 	setLevel(frame, null);
 }
 
-/* Puts the frame's surface, where it has one, onto a level, or the nearest that it has; null: that of the stream. */
+/* Puts the frame's surface, where it has one, onto a level, or the nearest that it has; null: the finest. */
 export function setLevel(frame, level) {
-	const { surface, first, others, at: before } = frame.levels || {}, at = surface &&
-		(level === null ? first : Math.min(level, surface.most));
+	const { surface, others, at: before } = frame.levels || {}, at = surface &&
+		(level === null ? surface.most : Math.min(level, surface.most));
 
 	if (!surface || at === before)
 		return;
@@ -150,8 +132,8 @@ export function setLevel(frame, level) {
 	for (const [key, column] of frame.columns)
 		if (column.layer === surface.layer)
 			frame.columns.delete(key);
-	const { position, triangles, height } = surface.at(at);
-	for (const column of [position, triangles, height, ...others.map((c) => surface.partOf(c, at))])
+	const { position, triangles } = surface.at(at);
+	for (const column of [position, triangles, ...others.map((c) => surface.partOf(c, at))])
 		if (column)
 			frame.columns.set(keyOf(column.layer, column.name), column);
 }

@@ -48,13 +48,12 @@ function showSize(painter) {
 }
 
 function showButtons(painter) {
-	const { regions } = painter.work, surface = Boolean(painter.layer.triangles);
+	const { regions } = painter.work;
 
 	$("paint-undo").disabled = regions.past.length === 0;
 	$("paint-redo").disabled = regions.future.length === 0;
-	$("grow").disabled = !surface;
 	$("clear").disabled = painter.region === 0;
-	document.querySelector("#tools [value=part]").hidden = !surface;
+	document.querySelector("#tools [value=part]").hidden = !painter.layer.triangles;
 }
 
 /* Brings the side to what is painted, and with what. */
@@ -65,7 +64,7 @@ export function showPaint(painter) {
 	for (const button of document.querySelectorAll("#tools button"))
 		button.setAttribute("aria-pressed", button.value === painter.tool);
 	$("painting").hidden = !paints;
-	$("take").hidden = !painter.work || !(painter.work.painted || painter.takeAway.taken.column.origin);
+	$("take").hidden = !painter.work || !painter.work.painted;
 	if (!painter.work)
 		return;
 	$("size-row").hidden = painter.tool !== "brush";
@@ -77,7 +76,7 @@ export function showPaint(painter) {
 export function connectPaint(painter) {
 	for (const button of document.querySelectorAll("#tools button"))
 		button.addEventListener("click", () => painter.choose(button.value));
-	for (const what of ["grow", "clear", "fill"])
+	for (const what of ["clear", "fill"])
 		$(what).addEventListener("click", () => painter.edit(what));
 	$("paint-undo").addEventListener("click", () => painter.back(false));
 	$("paint-redo").addEventListener("click", () => painter.back(true));

@@ -31,7 +31,6 @@ export class Painter {
 		this.app = app;
 		this.works = []; /* what was painted, or could be, of models of this page */
 		this.work = null; /* that of the frame: { name, rows, triangles, group, column, regions, painted } */
-		this.given = null; /* that of a layer that has regions in the stream, else the same */
 		this.tool = "turn";
 		this.region = HANDLE + 1;
 		this.size = 50;
@@ -63,13 +62,11 @@ export class Painter {
 		const found = LAYERS.map((name) => layers.find((l) => l.name === name)).filter((l) => l &&
 			l.position.rows > 0);
 		const layer = found.find((l) => visible.has(l.name)) || found[0] || null;
-		const given = found.find((l) => ownRegion(frame, l.name)), work = layer &&
-			await this.workOf(frame, layer);
+		const work = layer && await this.workOf(frame, layer);
 
 		if (work !== this.work)
-			this.strokes.forget();
+			this.strokes.cancel();
 		this.work = work;
-		this.given = given ? await this.workOf(frame, given) : work;
 		this.layer = layer;
 		showPaint(this);
 	}
@@ -159,20 +156,12 @@ export class Painter {
 		return changes || !this.work.painted ? this.show() : Promise.resolve();
 	}
 
-	/* Grow, clear, fill: `what` names it. */
+	/* Clear, fill: `what` names it. */
 	async edit(what) {
-		const { work, region, layer } = this;
+		const { work, region } = this;
 
-		if (!work || work.regions.before || (what === "grow" && !layer.triangles) ||
-			(what === "clear" && region === FIXED))
-			return undefined;
-		const t = what === "grow" ? await this.triangles() : null;
-		return work === this.work ? this.done(work.regions[what](region, t)) : undefined;
-	}
-
-	/* Those of the layer; null of points. */
-	async triangles() {
-		return this.layer.triangles ? this.drawn ? this.drawn.triangles : this.layer.triangles.values() : null;
+		if (work && !work.regions.before && (what !== "clear" || region !== FIXED))
+			await this.done(work.regions[what](region));
 	}
 
 	/* Takes back the last change, or takes back that. */

@@ -93,14 +93,4 @@ export class Regions {
 	clear(region) {
 		return this.change(FIXED, (r) => r === region);
 	}
-
-	/* A ring of vertices of no handle around the region gets into it. */
-	grow(region, t) {
-		const { values } = this, beside = new Uint8Array(values.length);
-
-		for (let k = 0; k < t.length; k += 3)
-			if (values[t[k]] === region || values[t[k + 1]] === region || values[t[k + 2]] === region)
-				beside[t[k]] = beside[t[k + 1]] = beside[t[k + 2]] = 1;
-		return this.change(region, (r, v) => beside[v] && r < HANDLE);
-	}
 }

@@ -5,7 +5,6 @@
 import * as THREE from "three/build/three.module.js";
 import { hitAt } from "../draw/pick.js";
 
-const REST = 150; /* milliseconds without a move */
 const $ = (id) => document.getElementById(id);
 
 /* The points in a ball. */
@@ -37,7 +36,7 @@ export class Strokes {
 		this.on = on;
 		this.cancel();
 		this.lead(!on);
-		this.stage.offer(on);
+		this.stage.gizmo.offer(!on);
 		$("ring").hidden = true;
 		this.stage.canvas.classList.toggle("paints", on);
 	}
@@ -50,11 +49,6 @@ export class Strokes {
 		controls.mouseButtons.RIGHT = paints ? THREE.MOUSE.ROTATE : THREE.MOUSE.PAN;
 		controls.touches.ONE = turns ? THREE.TOUCH.ROTATE : -1;
 		controls.touches.TWO = paints ? THREE.TOUCH.DOLLY_ROTATE : THREE.TOUCH.DOLLY_PAN;
-	}
-
-	/* Of another model nothing is known. */
-	forget() {
-		this.cancel();
 	}
 
 	/* What of the layer is under a place of the window; null: nothing. */
@@ -97,20 +91,9 @@ export class Strokes {
 	move(e) {
 		if (this.on && this.painter.tool === "brush")
 			this.drawRing(e.clientX, e.clientY);
-		if (this.on && !e.buttons)
-			this.prepare(e.clientX, e.clientY);
 		if (!this.stroke || e.pointerId !== this.stroke.id)
 			return;
 		this.brushTo(e.clientX, e.clientY);
-	}
-
-	/* Readies the layer while the pointer rests, so that the next stroke does not wait for it. */
-	prepare(clientX, clientY) {
-		clearTimeout(this.resting);
-		this.resting = setTimeout(() => {
-			if (this.on && !this.stroke)
-				this.hit(clientX, clientY);
-		}, REST);
 	}
 
 	/* Discs close enough to each other that the stroke has no notches. */

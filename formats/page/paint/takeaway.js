@@ -23,7 +23,7 @@ function hasHandles(layer, regions) {
 }
 
 /* The commands from the stream to the one with the regions and, where these have handles, a basis. */
-function commandsOf({ name: layer, regions }, frame, pose, several) {
+function commandsOf({ name: layer, regions }, frame, several) {
 	const has = (column) => Boolean(columnOf(frame, ...column.split(".")));
 	const { surface, at } = frame.levels || {}, first = ["mesh", "control", "points"].find((l) =>
 		has(l + ".position"));
@@ -35,7 +35,6 @@ function commandsOf({ name: layer, regions }, frame, pose, several) {
 		"mr-select" + (layer === first ? "" : " -l " + layer) + " --from \"$regions\"" + (several ? " -k" : ""),
 		handles && "mr-solve --basis",
 		onMesh && !has("mesh.detail_height") && "mr-encode",
-		pose,
 	].filter(Boolean).join(" | ").replace(/( \||$)/, " \"$@\"$1").split(" | ");
 }
 
@@ -69,33 +68,16 @@ export class TakeAway {
 		return fileOf(this.painter.app.shown.frame);
 	}
 
-	/* What is taken away: what is painted on the layer in view, or what the stream came with. */
-	get taken() {
-		const { work, given } = this.painter;
-
-		return work.painted || work.column.origin ? work : given;
-	}
-
 	async text() {
-		const { name, rows, triangles, regions } = this.taken, t = triangles && await triangles.values();
+		const { name, rows, triangles, regions } = this.painter.work, t = triangles && await triangles.values();
 
 		return write({ layer: name, vertices: rows, triangles: t }, regions.values);
-	}
-
-	/* The line of the page's pose, where it is of these regions and begins at rest; or an empty text. */
-	async pose(frame) {
-		const { pose } = this.painter.app.posing, { column, regions } = this.taken, own = column.origin &&
-			await column.origin.values();
-		const same = own && regions.values.every((r, v) => r === own[v]);
-
-		return pose && same && !columnOf(frame, "handles", "transform") ? pose.line() : "";
 	}
 
 	async script() {
 		const { frame } = this.painter.app.shown, several = this.painter.app.frames.some((f) =>
 			f.group !== frame.group);
 
-		return script(this.name, await this.text(), commandsOf(this.taken, frame, await this.pose(frame),
-			several));
+		return script(this.name, await this.text(), commandsOf(this.painter.work, frame, several));
 	}
 }

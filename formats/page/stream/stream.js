@@ -75,7 +75,7 @@ async function understand(frame) {
 		if (how === "file")
 			frame.file = line.slice(5);
 		else if (how === "surface")
-			frame.displaced = { layer, level: Number(name), vertices: more.map(Number) };
+			frame.displaced = { layer, vertices: [name, ...more].map(Number) };
 		else if (how === "texture")
 			wearing(frame, layer).texture = Number(name);
 		else if (how === "material")
