@@ -16,8 +16,7 @@ static const cmd_opt table[] = {
 	{ 0, "seed", CMD_COUNT, &seed, 0, 1e15, "K", "seed of points and noise", NULL },
 	{ 0, "genus", CMD_COUNT, &opts.genus, 0, 100000, "G", "boxes: the number of holes", NULL },
 	{ 0, "open", CMD_FLAG, &opts.open, 0, 0, NULL, "cylinder: without its caps", NULL },
-	{ 0, "texcoords", CMD_FLAG, &opts.texcoords, 0, 0, NULL,
-	    "with texture coordinates: sphere, torus, plane, cylinder, bumpy", NULL },
+	{ 0, "texcoords", CMD_FLAG, &opts.texcoords, 0, 0, NULL, "with texture coordinates", NULL },
 	{ 0 },
 };
 
@@ -45,7 +44,6 @@ prepare(cmd *c)
 	shape = mr_format(&c->ctx, "on %s", c->operands[0]);
 	MR_TRY(cmd_idle(c, "genus", opts.solid != MR_BOXES, shape));
 	MR_TRY(cmd_idle(c, "open", opts.solid != MR_CYLINDER, shape));
-	MR_TRY(cmd_idle(c, "texcoords", !mr_solid_has_texcoords(opts.solid), shape));
 	MR_TRY(cmd_idle(c, "texcoords", opts.points > 0, "with --points"));
 	return cmd_idle(
 	    c, "seed", !cmd_given(c, "points") && !cmd_given(c, "noise"), "without --noise or --points");

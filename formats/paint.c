@@ -141,8 +141,8 @@ paint_panel(mr_ctx *ctx, mr_ctx *keep, const mr_gallery *g, mr_frame *f, const m
 	const mr_panel *before;
 	mr_model m;
 
-	*painted |= p->coloring != MR_COLOR_PLAIN;
-	if (p->subject.mesh.nf == 0 || p->coloring != MR_COLOR_PLAIN)
+	*painted |= p->value || p->subject.color;
+	if (p->subject.mesh.nf == 0 || p->value || p->subject.color)
 		return MR_OK;
 	MR_TRY(mr_model_get(ctx, f, p->layer, &m));
 	if (opts->texture ? !m.texcoord && !m.corner_texcoord : !m.material)

@@ -675,7 +675,7 @@ typedef struct mr_make_opts {
 	size_t vertices;     /* about how many; 0: 10,000, and 30,000 for bumpy */
 	size_t genus;        /* of boxes */
 	bool open;           /* cylinder: without its caps */
-	bool texcoords;      /* with texture coordinates: sphere, torus, plane, cylinder, bumpy */
+	bool texcoords;      /* with texture coordinates */
 	double noise;        /* standard deviation, along the normals */
 	bool noise_relative; /* noise is a share of the bounding box's diagonal */
 	size_t points;       /* a cloud of so many instead of the mesh, uniform by area; 0: the mesh */

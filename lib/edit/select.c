@@ -312,19 +312,6 @@ eval_spaced(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 	return MR_OK;
 }
 
-static double
-number_at(const mr_column *c, size_t row)
-{
-	switch (c->shape.type) {
-	case 'd':
-		return ((const double *)c->data)[row];
-	case 'u':
-		return ((const uint32_t *)c->data)[row];
-	default:
-		return ((const unsigned char *)c->data)[row];
-	}
-}
-
 static mr_status
 eval_column(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 {
@@ -342,7 +329,7 @@ eval_column(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 		    t->name, s->m->name);
 	MR_TRY(mr_column_decode(ctx, &c));
 	for (size_t i = 0; i < c.rows; i++) {
-		double x = number_at(&c, i);
+		double x = mr_column_number(&c, i);
 		if (!(x >= t->x[0] && x <= t->x[1]))
 			continue;
 		for (int k = 0; k < (faces ? 3 : 1); k++)

@@ -44,41 +44,12 @@ take_normals(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_panel *p)
 	return MR_OK;
 }
 
-/* A row of a column as one number: its only value, or the length of several. */
-static double
-number_at(const mr_column *c, size_t row)
-{
-	double length = 0, x = 0;
-
-	for (size_t k = 0; k < c->shape.components; k++) {
-		size_t i = row * c->shape.components + k;
-		x = c->shape.type == 'd'   ? ((const double *)c->data)[i]
-		    : c->shape.type == 'u' ? ((const uint32_t *)c->data)[i]
-		                           : ((const unsigned char *)c->data)[i];
-		length = hypot(length, x);
-	}
-	return c->shape.components == 1 ? x : length;
-}
-
 static void
 take_numbers(mr_ctx *keep, const mr_column *c, mr_panel *p)
 {
 	p->value = MR_NEW(keep, c->rows, double);
 	for (size_t i = 0; i < c->rows; i++)
-		p->value[i] = number_at(c, i);
-	p->coloring = MR_COLOR_NUMBERS;
-}
-
-static mr_rgb
-kind_color(mr_panel *p, uint32_t kind)
-{
-	enum { SHOWN = 32 };
-
-	if (p->coloring != MR_COLOR_REGIONS)
-		return mr_color_kind(kind);
-	if (kind < SHOWN)
-		p->regions |= 1u << kind;
-	return mr_color_region(kind);
+		p->value[i] = mr_column_number(c, i);
 }
 
 /* Colours, or numbers of kinds, which need no range to become colours. */
@@ -86,12 +57,14 @@ static void
 take_colors(mr_ctx *keep, const mr_column *c, mr_panel *p)
 {
 	mr_rgb *color = MR_NEW(keep, c->rows, mr_rgb);
-	bool own = c->shape.type == 'b';
+	bool own = c->shape.type == 'b', regions = !strcmp(c->name, "region");
 
-	p->coloring = own ? MR_COLOR_OWN : !strcmp(c->name, "region") ? MR_COLOR_REGIONS : MR_COLOR_KINDS;
 	for (size_t i = 0; i < c->rows; i++) {
 		const unsigned char *b = (const unsigned char *)c->data + i * c->shape.components;
-		color[i] = own ? (mr_rgb){ b[0], b[1], b[2] } : kind_color(p, ((const uint32_t *)c->data)[i]);
+		uint32_t kind = own ? 0 : ((const uint32_t *)c->data)[i];
+		color[i] = own       ? (mr_rgb){ b[0], b[1], b[2] }
+		           : regions ? mr_color_region(kind)
+		                     : mr_color_kind(kind);
 	}
 	p->subject.color = color;
 	p->subject.nearest = !own;

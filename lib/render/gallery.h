@@ -11,23 +11,12 @@
 #include "render/raster.h"
 #include "stream/frame.h"
 
-/* What gives a place its colour. */
-typedef enum mr_coloring {
-	MR_COLOR_PLAIN,
-	MR_COLOR_OWN,
-	MR_COLOR_KINDS,
-	MR_COLOR_REGIONS,
-	MR_COLOR_NUMBERS
-} mr_coloring;
-
 /* One layer of one frame. */
 typedef struct mr_panel {
 	const char *frame, *layer;
 	mr_subject subject;
 	uint64_t worn[4]; /* serials of the columns that its paint is made of */
-	mr_coloring coloring;
-	double *value;    /* MR_COLOR_NUMBERS: as many as there would be colours */
-	uint32_t regions; /* MR_COLOR_REGIONS: bit r where region r is there */
+	double *value;    /* numbers, as many as there would be colours, in their place; NULL: none */
 } mr_panel;
 
 /* One frame's panels: panel[first] to panel[first + count]. */

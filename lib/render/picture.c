@@ -99,7 +99,7 @@ color_subject(mr_ctx *ctx, const mr_shot *s, const mr_panel *p, mr_subject *m)
 	mr_rgb *color;
 
 	*m = p->subject;
-	if (p->coloring != MR_COLOR_NUMBERS)
+	if (!p->value)
 		return;
 	color = MR_NEW(ctx, value_count(p), mr_rgb);
 	for (size_t i = 0; i < value_count(p); i++)
@@ -167,37 +167,6 @@ draw_scale(strip *s, const mr_shot *shot)
 	write_right(s, text, INK);
 }
 
-static const char *
-region_name(uint32_t region, char *text, size_t size)
-{
-	if (region == MR_REGION_FIXED)
-		return "fixed";
-	if (region == MR_REGION_FREE)
-		return "free";
-	snprintf(text, size, "handle %u", region - MR_REGION_HANDLE);
-	return text;
-}
-
-/* Squares of the colours of regions, with their names, from the right. */
-static void
-draw_regions(strip *s, uint32_t regions)
-{
-	enum { SHOWN = 32 };
-	char text[32];
-
-	for (uint32_t r = SHOWN; r-- > 0;) {
-		const char *name = region_name(r, text, sizeof text);
-		if (!(regions >> r & 1))
-			continue;
-		if (s->right - text_width(s, name) - 12 * s->unit < s->left)
-			return;
-		write_right(s, name, INK);
-		s->right -= 5 * s->unit;
-		mr_image_fill(s->image, s->right, s->y, 7 * s->unit, 7 * s->unit, mr_color_region(r));
-		s->right -= 1.5 * MR_TEXT_ADVANCE * s->unit;
-	}
-}
-
 /* The strip under a panel: its name, what it consists of, the legend of its colours. */
 static void
 draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several, const mr_render_opts *o)
@@ -209,12 +178,10 @@ draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several
 	snprintf(name, sizeof name, several ? "%s: %s" : "%s", p->frame, p->layer);
 	snprintf(size, sizeof size, "%zu %s", p->subject.mesh.nf ? p->subject.mesh.nf : p->subject.mesh.nv,
 	    p->subject.mesh.nf ? "triangles" : "points");
-	if (p->coloring == MR_COLOR_NUMBERS)
+	if (p->value)
 		draw_scale(&s, shot);
 	write_left(&s, name, INK, true);
-	if (p->coloring == MR_COLOR_REGIONS)
-		draw_regions(&s, p->regions);
-	if (p->coloring == MR_COLOR_NUMBERS && text_width(&s, o->color) < s.right - s.left)
+	if (p->value && text_width(&s, o->color) < s.right - s.left)
 		write_right(&s, o->color, PALE);
 	write_left(&s, size, PALE, false);
 }

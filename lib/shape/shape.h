@@ -27,10 +27,8 @@ mr_status mr_solid_make(mr_ctx *ctx, const mr_make_opts *opts, mr_mesh *m);
 /* The bumpy creature of about n vertices, in the arena. */
 mr_status mr_bumpy(mr_ctx *ctx, size_t n, mr_mesh *m);
 
-bool mr_solid_has_texcoords(mr_solid solid);
-
-/* Texture coordinates of the corners of a solid as it was made: a picture fills the square from 0 to 1,
- * around the axis where there is one.  corners: 6 nf, in the arena. */
+/* Texture coordinates of the corners of a solid as it was made: a picture fills the square from 0 to 1, on a
+ * plane, and around the upright axis of all else.  corners: 6 nf, in the arena. */
 void mr_solid_texcoords(mr_ctx *ctx, mr_solid solid, const mr_mesh *m, double **corners);
 
 /*

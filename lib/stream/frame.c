@@ -4,6 +4,8 @@
 #include "base/text.h"
 #include "stream/stored.h"
 
+#include <math.h>
+
 enum { ROOM = 16 };
 
 static const mr_shape TEXT = { '-', 't', 1 };
@@ -147,6 +149,21 @@ mr_column_decode(mr_ctx *ctx, mr_column *column)
 	}
 	column->data = s->data;
 	return MR_OK;
+}
+
+double
+mr_column_number(const mr_column *c, size_t row)
+{
+	double length = 0, x = 0;
+
+	for (size_t k = 0; k < c->shape.components; k++) {
+		size_t i = row * c->shape.components + k;
+		x = c->shape.type == 'd'   ? ((const double *)c->data)[i]
+		    : c->shape.type == 'u' ? ((const uint32_t *)c->data)[i]
+		                           : ((const unsigned char *)c->data)[i];
+		length = hypot(length, x);
+	}
+	return c->shape.components == 1 ? x : length;
 }
 
 /* A new column at the end; its fields are the caller's to set. */

@@ -67,6 +67,9 @@ mr_status mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **c
 /* The column, or NULL.  Not decoded: for its shape and rows. */
 const mr_column *mr_frame_find(const mr_frame *frame, const char *layer, const char *name);
 
+/* A row of a decoded column of numbers as one: its only value, or the length of several. */
+double mr_column_number(const mr_column *column, size_t row);
+
 /* Decodes one column, whatever it is. */
 mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
 

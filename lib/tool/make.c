@@ -16,7 +16,7 @@ put_mesh(mr_ctx *ctx, mr_frame *f, const mr_make_opts *o, mr_mesh *m)
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3), *normal = MR_NEW(ctx, m->nv, mr_v3);
 	double *uv = NULL;
 
-	if (o->texcoords && mr_solid_has_texcoords(o->solid))
+	if (o->texcoords)
 		mr_solid_texcoords(ctx, o->solid, m, &uv);
 	if (o->noise > 0) {
 		mr_vertex_normals(ctx, m, NULL, normal);

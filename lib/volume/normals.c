@@ -21,15 +21,15 @@ flat_planes(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, mr_volum
 static mr_status
 orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, bool flat)
 {
-	size_t untold = 0;
+	size_t untold;
 
-	if (!flat)
-		mr_volume_untold(ctx, s, toward, &untold);
-	if (untold > 0)
+	MR_TRY(mr_volume_orient_toward(ctx, s, toward, &untold));
+	if (untold > 0 && !flat) {
 		MR_TRY(mr_volume_orient_outward(ctx, s));
-	if (untold == s->n)
-		return MR_OK;
-	MR_TRY(mr_volume_orient_toward(ctx, s, toward));
+		if (untold == s->n)
+			return MR_OK;
+		MR_TRY(mr_volume_orient_toward(ctx, s, toward, &untold));
+	}
 	mr_volume_report_patches(ctx, s);
 	return MR_OK;
 }
@@ -47,10 +47,10 @@ mr_places_normals(
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu distinct points%s have no normals", n, n < 3 ? "" : " on a line");
 	MR_TRY(flat ? flat_planes(ctx, place, n, of, &s) : mr_volume_samples(ctx, place, n, of, 1, &s));
-	if (toward)
+	if (toward || flat)
 		MR_TRY(orient_toward(ctx, &s, toward, flat));
 	else
-		MR_TRY(flat ? mr_volume_orient_toward(ctx, &s, NULL) : mr_volume_orient_outward(ctx, &s));
+		MR_TRY(mr_volume_orient_outward(ctx, &s));
 	memcpy(normal, s.plane.normal, n * sizeof *normal);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -172,7 +172,8 @@ begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, const double *f
 }
 
 mr_status
-mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *flood, bool apart)
+mr_volume_orient(
+    mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *flood, bool apart, size_t *untold)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t links = s->plane.links;
@@ -188,9 +189,11 @@ mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *fl
 		uint32_t l = o.sorted[k];
 		join(&q, (uint32_t)(l / links), s->plane.neighbor[l], o.kind[l] & 1 ? -1 : 1);
 	}
+	*untold = 0;
 	for (uint32_t i = 0; i < s->n; i++) {
 		int8_t sign;
 		uint32_t root = root_of(&q, i, &sign);
+		*untold += q.vote[root] == 0;
 		if (q.vote[root] * sign < 0) {
 			s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
 			vote[i] *= -1;

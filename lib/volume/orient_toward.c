@@ -2,8 +2,6 @@
  * where these were seen. */
 #include "volume/parts.h"
 
-#include "base/disjoint_sets.h"
-
 /* A direction as near to its place's plane as this (the cosine to the normal) tells nothing of a side. */
 static const double ALONG = 0.1;
 
@@ -20,45 +18,19 @@ side_of(const mr_volume_cloud *s, const mr_v3 *toward, size_t i)
 }
 
 mr_status
-mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward)
+mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, size_t *untold)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *vote = MR_NEW_ZERO(ctx, s->n, double);
 
 	for (size_t i = 0; toward && i < s->n; i++)
 		vote[i] = side_of(s, toward, i);
-	MR_TRY(mr_volume_orient(ctx, s, vote, NULL, true));
+	MR_TRY(mr_volume_orient(ctx, s, vote, NULL, true, untold));
 	for (size_t i = 0; i < s->n; i++)
 		if (vote[i] < 0)
 			s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
-}
-
-/* Joins what the links do. */
-static void
-join_links(const mr_volume_cloud *s, uint32_t *part)
-{
-	for (size_t l = 0; l < s->n * s->plane.links; l++)
-		if (s->plane.neighbor[l] != UINT32_MAX)
-			mr_sets_join(part, (uint32_t)(l / s->plane.links), s->plane.neighbor[l]);
-}
-
-void
-mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, size_t *untold)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *part = mr_sets_new(ctx, s->n);
-	bool *told = MR_NEW_ZERO(ctx, s->n, bool);
-
-	join_links(s, part);
-	for (uint32_t i = 0; i < s->n; i++)
-		if (side_of(s, toward, i) != 0)
-			told[mr_sets_root(part, i)] = true;
-	*untold = 0;
-	for (uint32_t i = 0; i < s->n; i++)
-		*untold += !told[mr_sets_root(part, i)];
-	mr_mark_release(ctx, mark);
 }
 
 mr_volume_sides

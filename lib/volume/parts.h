@@ -33,11 +33,9 @@ mr_status mr_volume_samples(
 mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
 
 /* Gives normals the signs by which they are on the side that the directions say, of any length, 0 or no
- * number where none is known: there neighbours tell, as everywhere where toward is NULL.  orient_toward.c */
-mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward);
-
-/* How many points are of parts, by the links, in which no direction tells a side.  orient_toward.c */
-void mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
+ * number where none is known: there neighbours tell, as everywhere where toward is NULL.  *untold: how many
+ * points are of parts in which no direction tells a side.  orient_toward.c */
+mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
 
 /* Reports MR_UNCERTAIN where neighbours on alike planes have signs that are not.  volume.c */
 void mr_volume_report_patches(mr_ctx *ctx, const mr_volume_cloud *s);
@@ -59,8 +57,9 @@ double mr_volume_likeness(const mr_volume_cloud *s, uint32_t i, uint32_t j);
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
  * (positive: the sign is right) on the whole; apart: parts whose own votes say otherwise go by these, where
  * votes are not much less than the flood on both sides of the points (NULL: none).  The votes become those
- * for the signs.  orient.c */
-mr_status mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *flood, bool apart);
+ * for the signs.  *untold: how many points are of parts without a vote.  orient.c */
+mr_status mr_volume_orient(
+    mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *flood, bool apart, size_t *untold);
 
 /* From which size on one of n such votes counts: in proportion to them all.  orient.c */
 double mr_volume_loud(const double *vote, size_t n);

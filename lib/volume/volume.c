@@ -154,7 +154,9 @@ turn_outward(mr_volume_cloud *s)
 static mr_status
 orient_by_sides(mr_ctx *ctx, volume *v)
 {
-	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward));
+	size_t untold;
+
+	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
 	v->found.inward = turn_outward(&v->s);
 	if (v->found.inward)
 		mr_found(
@@ -238,11 +240,12 @@ orient_by_votes(mr_ctx *ctx, volume *v, const float *w)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *flood = MR_NEW(ctx, v->s.n, double);
+	size_t untold;
 
 	mr_parallel(ctx, v->s.n, GRAIN, measure_flood, &(across){ v, w, flood, 1, 0 });
-	MR_TRY(mr_volume_orient(ctx, &v->s, v->value, flood, true));
+	MR_TRY(mr_volume_orient(ctx, &v->s, v->value, flood, true, &untold));
 	if (is_torn(v))
-		MR_TRY(mr_volume_orient(ctx, &v->s, v->value, flood, false));
+		MR_TRY(mr_volume_orient(ctx, &v->s, v->value, flood, false, &untold));
 	v->sheet = against_share(v) > BOTH;
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -5,6 +5,8 @@
 
 enum { LINKS = 8, NEAREST = 16 };
 
+static size_t untold;
+
 /* Points of a surface with their planes, as they come, and the surface's own normals. */
 static mr_volume_cloud
 sampled(const mr_mesh *m, size_t n, uint64_t seed, mr_v3 **truth)
@@ -57,7 +59,7 @@ most_votes_orient_a_smooth_surface(void **state)
 		mr_v3 *truth;
 		mr_volume_cloud s = sampled(&m, 4000, seed, &truth);
 		double *v = vote(&s, truth, &r, 0.01 * (double)seed, 0.4);
-		assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
+		assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false, &untold), MR_OK);
 		assert_int_equal(count_wrong(&s, truth), 0);
 		mr_ctx_free(&ctx);
 	}
@@ -76,7 +78,7 @@ votes_and_not_signs_decide(void **state)
 	(void)state;
 	for (size_t i = 0; i < s.n; i++)
 		assert_true(fabs(mr_norm(s.plane.normal[i]) - 1) < 1e-12);
-	assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
+	assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false, &untold), MR_OK);
 	assert_int_equal(count_wrong(&s, truth), s.n);
 	for (size_t i = 0; i < s.n; i++)
 		assert_true(fabs(mr_norm(s.plane.normal[i]) - 1) < 1e-12);
@@ -98,7 +100,7 @@ parts_that_are_apart_have_votes_of_their_own(void **state)
 			v[i] = -v[i];
 			truth[i] = mr_mul(-1, truth[i]);
 		}
-	assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
+	assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false, &untold), MR_OK);
 	assert_int_equal(count_wrong(&s, truth), 0);
 }
 
@@ -127,7 +129,7 @@ signs_pass_around_a_rim(void **state)
 		double *v = vote(&s, truth, &r, 0.05, 0);
 		for (size_t i = 0; i < s.n; i++)
 			v[i] *= truth[i].z > 0;
-		assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
+		assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false, &untold), MR_OK);
 		assert_true(count_wrong(&s, truth) < s.n / 200); /* on the rim itself */
 	}
 }
@@ -150,7 +152,7 @@ parts_that_are_sure_stay_apart(void **state)
 		}
 	for (size_t i = 0; i < s.n; i++)
 		flood[i] = 1.1; /* 0.05 of it on the other side */
-	assert_int_equal(mr_volume_orient(&ctx, &s, v, flood, true), MR_OK);
+	assert_int_equal(mr_volume_orient(&ctx, &s, v, flood, true, &untold), MR_OK);
 	assert_true(
 	    count_wrong(&s, truth) < s.n / 100); /* along the equator they may take the other's side */
 }
@@ -172,7 +174,7 @@ unsure_parts_stay_together(void **state)
 		double *v = vote(&s, truth, &r, 1, 0);
 		for (size_t i = 0; i < s.n; i++)
 			v[i] *= s.p[i].z < -0.3 ? -1 : 1;
-		assert_int_equal(mr_volume_orient(&ctx, &s, v, flood, apart), MR_OK);
+		assert_int_equal(mr_volume_orient(&ctx, &s, v, flood, apart, &untold), MR_OK);
 		assert_int_equal(count_wrong(&s, truth), 0);
 	}
 }
@@ -197,7 +199,7 @@ directions_tell_sides(void **state)
 	j = mr_volume_judge(&s, toward);
 	assert_int_equal(j.told, N / 3);
 	assert_true(j.near == 1 && j.alike == 1);
-	assert_int_equal(mr_volume_orient_toward(&ctx, &s, toward), MR_OK);
+	assert_int_equal(mr_volume_orient_toward(&ctx, &s, toward, &untold), MR_OK);
 	assert_int_equal(count_wrong(&s, truth), 0);
 }
 
