@@ -8,17 +8,6 @@
 static const size_t MOST_TRIANGLES = (MR_NONE - 1) / 3;
 
 mr_status
-mr_build_vertices(mr_builder *b, uint64_t nv)
-{
-	if (nv >= MR_NONE)
-		return mr_fail(b->ctx, MR_ERANGE, "%llu vertices are more than indices can name",
-		    (unsigned long long)nv);
-	b->nv = (size_t)nv;
-	b->p = MR_NEW(b->ctx, b->nv, mr_v3);
-	return MR_OK;
-}
-
-mr_status
 mr_build_reserve(mr_builder *b, size_t faces)
 {
 	if (faces > MOST_TRIANGLES)
@@ -119,7 +108,7 @@ mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const u
 	keep_places(b, &b->corner_vn, &b->vn_room, vn, n);
 	if (n > 3) {
 		kept = without_repeats(b, n);
-		b->counts.polygons++;
+		b->m.counts.polygons++;
 	}
 	if (kept < 3) {
 		b->skipped++;
@@ -304,8 +293,9 @@ narrow(mr_ctx *ctx, const double *x, size_t n, mr_shape *shape)
 
 /* Those of triangles where faces are of several: `face` of each. */
 static void
-put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
+put_properties(mr_builder *b, const uint32_t *face)
 {
+	mr_model *m = &b->m;
 	mr_property *property = MR_NEW(b->ctx, b->properties, mr_property);
 
 	for (size_t i = 0; i < b->properties; i++) {
@@ -472,13 +462,14 @@ values_of(mr_ctx *ctx, const uint32_t *place, size_t n, size_t width, const doub
 
 /* Texture coordinates of corners go before those of vertices. */
 static void
-put_texcoords(mr_builder *b, const uint32_t *place, mr_model *m)
+put_texcoords(mr_builder *b, const uint32_t *place)
 {
+	mr_model *m = &b->m;
 	const double *corner;
 	double *vertex;
 
 	values_of(b->ctx, place, 3 * m->nf, 2, b->uv, NAN, &corner);
-	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &b->counts.seam_vertices);
+	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &m->counts.seam_vertices);
 	if (m->texcoord && (!vertex || memcmp(vertex, m->texcoord, 2 * m->nv * sizeof *vertex)))
 		mr_lost(b->ctx, NULL, m->nv, "texture coordinates of vertices");
 	m->texcoord = vertex;
@@ -486,13 +477,14 @@ put_texcoords(mr_builder *b, const uint32_t *place, mr_model *m)
 }
 
 static void
-put_normals(mr_builder *b, const uint32_t *place, mr_model *m)
+put_normals(mr_builder *b, const uint32_t *place)
 {
+	mr_model *m = &b->m;
 	const double *corner;
 	double *vertex;
 
 	values_of(b->ctx, place, 3 * m->nf, 3, (const double *)b->vn, 0, &corner);
-	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &b->counts.crease_vertices);
+	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &m->counts.crease_vertices);
 	m->normal = (const mr_v3 *)vertex;
 	m->corner_normal = vertex ? NULL : (const mr_v3 *)corner;
 }
@@ -524,7 +516,7 @@ add_face(mr_builder *b, triangles *r, mr_tri *room, size_t face, size_t first)
 	if (n == 3)
 		room[0] = whole;
 	else
-		mr_polygon_triangulate(b->ctx, b->p, c, n, room);
+		mr_polygon_triangulate(b->ctx, b->m.p, c, n, room);
 	for (size_t i = 0; i < n - 2; i++) {
 		const uint32_t *v = room[i].v;
 		if (n > 3 && !is_proper(c, v))
@@ -571,88 +563,69 @@ number_polygons(mr_builder *b, const triangles *r)
 	return number;
 }
 
-/* Rows of faces as rows of triangles. */
-static void
-spread(mr_builder *b, const triangles *r, mr_model *m)
-{
-	const uint32_t **marks[MR_MARKINGS] = { &m->group, &m->object, &m->material, &m->smoothing };
-
-	for (int i = 0; i < MR_MARKINGS; i++)
-		if (*marks[i])
-			*marks[i] = mr_gather(b->ctx, *marks[i], sizeof **marks[i], r->face, r->n);
-}
-
-/* Triangles, with what the faces and their corners have. */
-static mr_status
-put_faces(mr_builder *b, mr_model *m)
-{
-	const uint32_t *uv = b->corner_uv, *vn = b->corner_vn;
-	triangles r = { 0 };
-
-	m->t = (const mr_tri *)b->corner; /* three indices each */
-	m->nf = b->faces;
-	if (b->size) {
-		MR_TRY(triangulate(b, &r));
-		m->t = r.t;
-		m->nf = r.n;
-		m->polygon = number_polygons(b, &r);
-		spread(b, &r, m);
-		put_properties(b, r.face, m);
-		if (uv)
-			uv = mr_gather(b->ctx, uv, sizeof *uv, r.place, 3 * r.n);
-		if (vn)
-			vn = mr_gather(b->ctx, vn, sizeof *vn, r.place, 3 * r.n);
-	}
-	if (!b->size)
-		put_properties(b, NULL, m);
-	if (uv)
-		put_texcoords(b, uv, m);
-	if (vn)
-		put_normals(b, vn, m);
-	return MR_OK;
-}
-
 static mr_lines
 lines_of(const mr_name_table *names)
 {
 	return names->bytes ? (mr_lines){ names->text, names->bytes - 1 } : (mr_lines){ NULL, 0 };
 }
 
-/* What faces are marked with, once there are faces. */
+/* What faces are marked with, of each triangle. */
 static void
-put_marks(const mr_builder *b, mr_model *m)
+put_marks(mr_builder *b, const uint32_t *face)
 {
-	const mr_marks *k = b->marks;
+	mr_model *m = &b->m;
+	const uint32_t **of[MR_MARKINGS] = { &m->group, &m->object, &m->material, &m->smoothing };
+	mr_lines *names[MR_MARKINGS] = { &m->groups, &m->objects, &m->materials, NULL };
 
-	m->group = k[MR_GROUP].used ? k[MR_GROUP].of : NULL;
-	m->object = k[MR_OBJECT].used ? k[MR_OBJECT].of : NULL;
-	m->material = k[MR_MATERIAL].used ? k[MR_MATERIAL].of : NULL;
-	m->smoothing = k[MR_SMOOTHING].used ? k[MR_SMOOTHING].of : NULL;
-	m->groups = lines_of(&k[MR_GROUP].names);
-	m->objects = lines_of(&k[MR_OBJECT].names);
-	m->materials = lines_of(&k[MR_MATERIAL].names);
+	for (int i = 0; i < MR_MARKINGS; i++) {
+		const mr_marks *k = &b->marks[i];
+		if (!k->used)
+			continue;
+		*of[i] = face ? mr_gather(b->ctx, k->of, sizeof *k->of, face, m->nf) : k->of;
+		if (names[i])
+			*names[i] = lines_of(&k->names);
+	}
 	m->mtllib = lines_of(&b->libraries);
+}
+
+/* Triangles, with what the faces and their corners have. */
+static mr_status
+put_faces(mr_builder *b, triangles *r)
+{
+	const uint32_t *uv = b->corner_uv, *vn = b->corner_vn;
+	mr_model *m = &b->m;
+
+	m->t = (const mr_tri *)b->corner; /* three indices each */
+	m->nf = b->faces;
+	if (b->size) {
+		MR_TRY(triangulate(b, r));
+		m->t = r->t;
+		m->nf = r->n;
+		m->polygon = number_polygons(b, r);
+		if (uv)
+			uv = mr_gather(b->ctx, uv, sizeof *uv, r->place, 3 * r->n);
+		if (vn)
+			vn = mr_gather(b->ctx, vn, sizeof *vn, r->place, 3 * r->n);
+	}
+	put_marks(b, r->face);
+	if (uv)
+		put_texcoords(b, uv);
+	if (vn)
+		put_normals(b, vn);
+	return MR_OK;
 }
 
 mr_status
 mr_build_finish(mr_builder *b, mr_model *m)
 {
-	mr_model made = { .p = b->p,
-		.nv = b->nv,
-		.normal = b->normal,
-		.color = b->color,
-		.texcoord = b->texcoord,
-		.scanner = b->scanner };
+	triangles r = { 0 };
 
 	if (b->faces == 0 && b->skipped)
 		return mr_fail(b->ctx, MR_EMESH, "none of the %zu faces has three corners", b->skipped);
-	if (b->faces) {
-		put_marks(b, &made);
-		MR_TRY(put_faces(b, &made));
-	} else
-		put_properties(b, NULL, &made);
+	if (b->faces)
+		MR_TRY(put_faces(b, &r));
+	put_properties(b, r.face);
 	mr_lost(b->ctx, NULL, b->skipped, "faces without three corners");
-	made.counts = b->counts;
-	*m = made;
+	*m = b->m;
 	return MR_OK;
 }

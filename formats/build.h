@@ -24,10 +24,7 @@ typedef struct mr_marks {
 
 typedef struct mr_builder {
 	mr_ctx *ctx;
-	mr_v3 *p, *normal, *scanner;
-	unsigned char *color;
-	double *texcoord; /* of vertices; those of corners go before them */
-	size_t nv;
+	mr_model m; /* to be: what vertices have is the reader's to set; texcoord of corners goes before it */
 	uint32_t *corner; /* of all faces */
 	uint32_t *size;   /* corners of each face; NULL as long as all are triangles */
 	size_t corners, corner_room, faces, face_room;
@@ -38,17 +35,13 @@ typedef struct mr_builder {
 	bool plain;           /* faces are triangles with nothing but vertices so far: see mr_build_reserve */
 	struct mr_kept *kept; /* properties; of faces one row for each face */
 	size_t properties, property_room;
-	size_t skipped;          /* faces without three corners */
-	mr_import_result counts; /* of the model to be */
+	size_t skipped; /* faces without three corners */
 	mr_marks marks[MR_MARKINGS];
 	const char *ungrouped; /* the group of faces before the first, and of one without a name; NULL: "" */
 	mr_name_table libraries; /* files of materials */
 	char *clean;             /* a name on its way */
 	size_t clean_room;
 } mr_builder;
-
-/* Positions for nv vertices, not set; MR_ERANGE beyond what indices can name. */
-mr_status mr_build_vertices(mr_builder *b, uint64_t nv) MR_WARN_UNUSED;
 
 /* Room for so many triangles, to spare growing. */
 mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;

@@ -535,48 +535,45 @@ join_mesh(reader *r, size_t i, size_t *end)
 	if (faces)
 		mr_weld(r->g.ctx, r->p + first, joined, 0, r->join + first, &joined);
 	for (size_t k = first; k < last; k++)
-		r->join[k] += (uint32_t)r->b.nv;
-	r->b.nv += joined;
+		r->join[k] += (uint32_t)r->b.m.nv;
+	r->b.m.nv += joined;
 }
 
 /* Each vertex has the first colour that it is given. */
 static void
 join_colors(reader *r)
 {
+	unsigned char *color = r->color ? MR_NEW(r->g.ctx, 4 * r->b.m.nv, unsigned char) : NULL;
 	size_t several = 0;
 
-	if (!r->color)
-		return;
-	r->b.color = MR_NEW(r->g.ctx, 4 * r->b.nv, unsigned char);
-	for (size_t k = r->n; k-- > 0;)
-		memcpy(r->b.color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
-	for (size_t k = 0; k < r->n; k++)
-		several += memcmp(r->b.color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
+	for (size_t k = r->n; color && k-- > 0;)
+		memcpy(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
+	for (size_t k = 0; color && k < r->n; k++)
+		several += memcmp(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
+	r->b.m.color = color;
 	mr_lost(r->g.ctx, NULL, several, "colors of joined vertices");
 }
 
-static mr_status
+static void
 join_vertices(reader *r)
 {
-	size_t nv;
+	mr_v3 *p;
 
 	for (size_t i = 0; i < r->parts;) {
 		size_t end = i;
 		join_mesh(r, i, &end);
 		i = end;
 	}
-	nv = r->b.nv;
-	MR_TRY(mr_build_vertices(&r->b, nv));
+	r->b.m.p = p = MR_NEW(r->g.ctx, r->b.m.nv, mr_v3);
 	for (size_t k = r->n; k-- > 0;)
-		r->b.p[r->join[k]] = r->p[k];
+		p[r->join[k]] = r->p[k];
 	join_colors(r);
 	r->b.uv = r->uv;
 	r->b.vn = r->normal;
 	if (r->nf == 0) { /* points are not joined */
-		r->b.normal = r->normal;
-		r->b.texcoord = r->uv;
+		r->b.m.normal = r->normal;
+		r->b.m.texcoord = r->uv;
 	}
-	return MR_OK;
 }
 
 /* ---- faces ---- */
@@ -710,7 +707,7 @@ mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(find_scene(&r.g, &r.scene));
 	MR_TRY(find_parts(&r));
 	MR_TRY(read_vertices(&r));
-	MR_TRY(join_vertices(&r));
+	join_vertices(&r);
 	if (r.nf)
 		name_all(&r);
 	for (size_t i = 0; i < r.parts; i++)

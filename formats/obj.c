@@ -69,7 +69,6 @@ position(obj *o, mr_scan *line)
 	if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2]))
 		return mr_scan_fail(line, line->p, "a coordinate is not finite");
 	o->numbers += (n == 4 && x[3] != 1) || (n > 6 && x[6] != 1);
-	o->rows.odd_colors += n > 4 && !isfinite(x[3] + x[4] + x[5]);
 	if (n <= 4)
 		x[3] = x[4] = x[5] = (double)NAN;
 	o->v++;
@@ -399,7 +398,7 @@ finish_texcoords(obj *o)
 
 	if (are_of_vertices(o, o->b.corner_uv, o->no_texcoords, o->vt)) {
 		if (mr_all_left(o->ctx, o->odd_texcoords, o->vt, what))
-			o->b.texcoord = o->uv;
+			o->b.m.texcoord = o->uv;
 		return;
 	}
 	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, what))
@@ -415,7 +414,7 @@ finish_normals(obj *o)
 	if (!mr_normals_left(o->ctx, o->vn_values, o->vn))
 		o->b.corner_vn = NULL;
 	else if (of_vertices)
-		o->b.normal = o->vn_values;
+		o->b.m.normal = o->vn_values;
 	mr_lost(o->ctx, NULL, o->no_normals, "normals that are not there");
 }
 

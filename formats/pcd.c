@@ -4,7 +4,7 @@
  */
 #include "formats/format.h"
 
-enum { FIELDS = 64, COLUMNS = FIELDS + 7 };
+enum { FIELDS = 64, COLUMNS = FIELDS + 6 };
 
 /* Three bytes of LZF stand for 264 at most. */
 enum { SWELLS = 88 };
@@ -30,6 +30,7 @@ typedef struct pcd {
 	mr_rows rows; /* of fields, then of colours, then of the viewpoint */
 	double x[COLUMNS];
 	size_t surplus; /* rows of text that have numbers of no field */
+	size_t clear;   /* points with an alpha other than of none or all */
 } pcd;
 
 /* ---- the header ---- */
@@ -123,11 +124,10 @@ add_columns(pcd *f)
 
 	for (size_t i = 0; i < f->fields; i++)
 		add_field(f, &f->field[i]);
-	for (mr_role k = MR_RED; f->rgb && k <= MR_ALPHA; k++)
-		if (k != MR_ALPHA || (is_named(f->rgb, "rgba") && f->rgb->type != 'F'))
-			mr_rows_add(&f->rows, k, "", 0, NULL);
+	for (mr_role k = MR_RED; f->rgb && k <= MR_BLUE; k++)
+		mr_rows_add(&f->rows, k, "", 0, NULL);
 	if (f->rgb)
-		f->rows.shades[0].full = f->rows.shades[1].full = 255;
+		f->rows.shades[0].full = 255;
 	for (mr_role k = MR_FROM_X; seen && k <= MR_FROM_Z; k++)
 		mr_rows_add(&f->rows, k, "", 0, NULL);
 	mr_rows_begin(&f->rows);
@@ -327,21 +327,9 @@ part_color(pcd *f)
 	double whole = f->x[f->rgb - f->field];
 	uint32_t bits = isnan(whole) ? 0 : (uint32_t)whole;
 
-	for (int k = 0; k < 4; k++)
-		f->x[f->fields + (size_t)k] = isnan(whole)
-		                                  ? whole
-		                                  : (double)(bits >> (k < 3 ? 16 - 8 * k : 24) & 255);
-}
-
-/* Where no point can be seen, alpha was not told. */
-static void
-mend_alpha(unsigned char *color, size_t n)
-{
-	for (size_t i = 0; i < n; i++)
-		if (color[4 * i + 3])
-			return;
-	for (size_t i = 0; i < n; i++)
-		color[4 * i + 3] = 255;
+	f->clear += bits >> 24 != 0 && bits >> 24 != 255;
+	for (int k = 0; k < 3; k++)
+		f->x[f->fields + (size_t)k] = isnan(whole) ? whole : (double)(bits >> (16 - 8 * k) & 255);
 }
 
 /* The points: as many as are finite. */
@@ -368,6 +356,7 @@ static void
 say_rest(pcd *f)
 {
 	mr_lost(f->ctx, NULL, f->surplus, "numbers behind points");
+	mr_lost(f->ctx, NULL, f->clear, "alpha");
 	if (f->packed)
 		f->text.p += 8 + mr_load32((const unsigned char *)f->text.p, false);
 	if (!f->binary)
@@ -388,7 +377,5 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(read_points(&f));
 	say_rest(&f);
 	mr_rows_end(&f.rows);
-	if (f.b.color)
-		mend_alpha(f.b.color, f.b.nv);
 	return mr_build_finish(&f.b, m);
 }

@@ -368,7 +368,7 @@ read_indices(ply *f, const property *p)
 			uint32_t raw = mr_load32(
 			    (const unsigned char *)f->text.p, f->big); /* the usual case */
 			f->text.p += size;
-			if (raw < f->b.nv) {
+			if (raw < f->b.m.nv) {
 				f->indices[i] = raw;
 				continue;
 			}
@@ -378,10 +378,10 @@ read_indices(ply *f, const property *p)
 			x = (double)at;
 		} else
 			MR_TRY(next_value(f, p->value, &x));
-		if (x >= 0 && x < (double)f->b.nv && x == floor(x))
+		if (x >= 0 && x < (double)f->b.m.nv && x == floor(x))
 			f->indices[i] = (uint32_t)x;
 		else
-			return mr_scan_fail(&f->text, where, "vertex %.17g of %zu", x, f->b.nv);
+			return mr_scan_fail(&f->text, where, "vertex %.17g of %zu", x, f->b.m.nv);
 	}
 	return MR_OK;
 }

@@ -89,7 +89,6 @@ read_point(ptx *f, const scan *s)
 		return mr_scan_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
 	if (x[0] == 0 && x[1] == 0 && x[2] == 0)
 		return MR_OK;
-	f->rows.odd_colors += n == 7 && !isfinite(x[4] + x[5] + x[6]);
 	if (n < 7)
 		x[4] = x[5] = x[6] = (double)NAN;
 	p = mr_vec(m[0] * x[0] + m[4] * x[1] + m[8] * x[2] + m[12],

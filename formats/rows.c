@@ -35,29 +35,36 @@ mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char
 	r->at[role] = role == MR_NO_ROLE ? 0 : r->columns;
 }
 
-static void
-demote(mr_rows *r, mr_role first, size_t n)
-{
-	bool whole = true;
+/* What columns make together: as many roles from the first on, of which `needed` must be there. */
+static const struct {
+	mr_role first;
+	size_t width, needed;
+	const char *what;
+} kinds[MR_PARTS] = { { MR_X, 3, 3, "positions" }, { MR_NX, 3, 3, "normals" }, { MR_RED, 4, 3, "colors" },
+	{ MR_U, 2, 2, "texture coordinates" }, { MR_FROM_X, 3, 3, "places of the scanner" } };
 
-	for (size_t i = first; i < first + n; i++)
-		whole &= r->at[i] > 0;
-	for (size_t i = first; i < first + n && !whole; i++)
-		if (r->at[i]) {
-			r->column[r->at[i] - 1].role = MR_NO_ROLE;
-			r->at[i] = 0;
+enum { POSITION, NORMAL, COLOR, TEXCOORD, SCANNER };
+
+/* Makes properties of the columns of a part that is not whole. */
+static void
+demote(mr_rows *r, size_t part)
+{
+	size_t *at = r->at + kinds[part].first, there = 0;
+
+	for (size_t i = 0; i < kinds[part].needed; i++)
+		there += at[i] > 0;
+	for (size_t i = 0; i < kinds[part].width && there < kinds[part].needed; i++)
+		if (at[i]) {
+			r->column[at[i] - 1].role = MR_NO_ROLE;
+			at[i] = 0;
 		}
 }
 
 void
 mr_rows_begin(mr_rows *r)
 {
-	demote(r, MR_NX, 3);
-	demote(r, MR_RED, 3);
-	if (!r->at[MR_RED])
-		demote(r, MR_RED, 4);
-	demote(r, MR_U, 2);
-	demote(r, MR_FROM_X, 3);
+	for (size_t k = NORMAL; k < MR_PARTS; k++)
+		demote(r, k);
 	for (size_t i = 0; i < r->columns; i++) {
 		mr_rows_column *c = &r->column[i];
 		if (c->role == MR_NO_ROLE && c->type)
@@ -65,63 +72,75 @@ mr_rows_begin(mr_rows *r)
 	}
 }
 
+static bool
+has_part(const mr_rows *r, size_t part)
+{
+	return r->at[kinds[part].first] > 0;
+}
+
 mr_status
 mr_rows_room(mr_rows *r, uint64_t more)
 {
-	mr_builder *b = r->b;
-	size_t n = (size_t)more;
+	mr_ctx *ctx = r->b->ctx;
 
 	if (more >= MR_NONE - r->n)
-		return mr_fail(b->ctx, MR_ERANGE, "%llu vertices are more than indices can name",
+		return mr_fail(ctx, MR_ERANGE, "%llu vertices are more than indices can name",
 		    (unsigned long long)more + r->n);
-	MR_RESERVE(b->ctx, b->p, r->n, n, &r->room[0]);
-	if (r->at[MR_NX])
-		MR_RESERVE(b->ctx, b->normal, r->n, n, &r->room[1]);
-	if (r->at[MR_FROM_X])
-		MR_RESERVE(b->ctx, b->scanner, r->n, n, &r->room[2]);
-	if (r->at[MR_U])
-		MR_RESERVE(b->ctx, b->texcoord, 2 * r->n, 2 * n, &r->room[3]);
+	for (size_t k = 0; k < MR_PARTS; k++)
+		if (has_part(r, k) && !(r->sparse && k == COLOR))
+			MR_RESERVE(ctx, r->part[k], kinds[k].width * r->n, kinds[k].width * (size_t)more,
+			    &r->room[k]);
 	return MR_OK;
-}
-
-static mr_v3
-three(const mr_rows *r, const double *x, mr_role first)
-{
-	return mr_vec(x[r->at[first] - 1], x[r->at[first + 1] - 1], x[r->at[first + 2] - 1]);
 }
 
 mr_v3
 mr_rows_position(const mr_rows *r, const double *x)
 {
-	return three(r, x, MR_X);
+	return mr_vec(x[r->at[MR_X] - 1], x[r->at[MR_Y] - 1], x[r->at[MR_Z] - 1]);
 }
 
-/* Where their types do not say what is full, alpha says it of colours, too. */
-static void
-put_color(mr_rows *r, const double *x)
+/* Room for the colour of a row, which those before it have none of; false where it has none either. */
+static bool
+begin_color(mr_rows *r, double red)
 {
-	bool together = r->shades[0].full == 0 && r->shades[1].full == 0;
-	double c[4];
-	float *to;
+	size_t before = r->part[COLOR] ? 4 * r->n : 0;
 
-	for (size_t k = 0; k < 4; k++)
-		c[k] = r->at[MR_RED + k] ? x[r->at[MR_RED + k] - 1] : (double)NAN;
-	if (!isfinite(c[0] + c[1] + c[2])) {
-		r->odd_colors += !r->sparse;
-		c[0] = c[3] = (double)NAN;
-		if (!r->rgba)
-			return;
+	if (!r->part[COLOR] && isnan(red))
+		return false;
+	MR_RESERVE(r->b->ctx, r->part[COLOR], before, 4 * r->n + 4 - before, &r->room[COLOR]);
+	for (size_t i = before; i < 4 * r->n; i++)
+		r->part[COLOR][i] = NAN;
+	return true;
+}
+
+void
+mr_rows_put(mr_rows *r, const double *x)
+{
+	for (size_t k = 0; k < MR_PARTS; k++) {
+		const size_t *at = r->at + kinds[k].first, width = kinds[k].width;
+		if (!has_part(r, k) || (r->sparse && k == COLOR && !begin_color(r, x[*at - 1])))
+			continue;
+		for (size_t i = 0; i < width; i++)
+			r->part[k][width * r->n + i] = at[i] ? x[at[i] - 1] : (double)NAN;
 	}
-	if (!r->rgba) {
-		MR_RESERVE(r->b->ctx, r->rgba, 0, 4 * r->n + 4, &r->room[4]);
-		for (size_t i = 0; i < 4 * r->n; i++)
-			r->rgba[i] = NAN;
-	}
-	MR_RESERVE(r->b->ctx, r->rgba, 4 * r->n, 4, &r->room[4]);
-	to = r->rgba + 4 * r->n;
+	for (size_t k = 0; k < r->columns; k++)
+		if (r->column[k].property)
+			mr_build_value(r->b, r->column[k].property, r->n, x[k]);
+	r->n++;
+}
+
+static bool
+has_color(const double *c)
+{
+	return isfinite(c[0] + c[1] + c[2]);
+}
+
+/* Looks at a colour.  Where their types do not say what is full, alpha says it of colours, too. */
+static void
+see_color(mr_rows *r, const double *c, bool together)
+{
 	for (size_t k = 0; k < 4; k++) {
-		to[k] = (float)c[k];
-		if (isnan(c[0]) || isnan(c[k]))
+		if (isnan(c[k]))
 			continue;
 		mr_shade_see(&r->shades[k == 3], c[k]);
 		if (k == 3 && together)
@@ -129,66 +148,60 @@ put_color(mr_rows *r, const double *x)
 	}
 }
 
-void
-mr_rows_put(mr_rows *r, const double *x)
-{
-	mr_builder *b = r->b;
-	size_t i = r->n;
-
-	b->p[i] = three(r, x, MR_X);
-	if (r->at[MR_NX])
-		b->normal[i] = three(r, x, MR_NX);
-	if (r->at[MR_FROM_X]) {
-		b->scanner[i] = three(r, x, MR_FROM_X);
-		r->odd_scanner += !mr_finite(b->scanner[i]);
-	}
-	if (r->at[MR_U]) {
-		const double *u = x + r->at[MR_U] - 1, *v = x + r->at[MR_V] - 1;
-		b->texcoord[2 * i] = *u;
-		b->texcoord[2 * i + 1] = *v;
-		r->odd_uv += !isfinite(*u) || !isfinite(*v);
-	}
-	if (r->at[MR_RED])
-		put_color(r, x);
-	for (size_t k = 0; k < r->columns; k++)
-		if (r->column[k].property)
-			mr_build_value(b, r->column[k].property, i, x[k]);
-	r->n++;
-}
-
-/* Colours are bytes; those that are none are white. */
+/* Colours become bytes; those that are none are white. */
 static void
 finish_colors(mr_rows *r)
 {
-	mr_ctx *ctx = r->b->ctx;
+	const double *c = r->part[COLOR];
+	bool together = r->shades[0].full == 0 && r->shades[1].full == 0;
+	size_t odd = 0, there = 0;
+	unsigned char *color;
 
-	mr_lost(ctx, NULL, r->odd_colors, "colors");
-	if (!r->rgba)
+	for (size_t i = 0; c && i < 4 * r->n; i += 4)
+		if (has_color(c + i)) {
+			see_color(r, c + i, together);
+			there++;
+		} else
+			odd += !r->sparse || !isnan(c[i]) || !isnan(c[i + 1]) || !isnan(c[i + 2]);
+	mr_lost(r->b->ctx, NULL, odd, kinds[COLOR].what);
+	if (there == 0)
 		return;
-	r->b->color = MR_NEW(ctx, 4 * r->n, unsigned char);
 	for (int k = 0; k < 2; k++)
 		if (r->shades[k].full == 0)
 			r->shades[k].full = mr_shade_full(&r->shades[k]);
-	for (size_t i = 0; i < 4 * r->n; i++) {
-		bool none = isnan(r->rgba[i]) || isnan(r->rgba[i / 4 * 4]);
-		r->b->color[i] = none ? 255 : mr_shade_byte(&r->shades[i % 4 == 3], (double)r->rgba[i]);
-	}
+	r->b->m.color = color = MR_NEW(r->b->ctx, 4 * r->n, unsigned char);
+	for (size_t i = 0; i < r->n; i++, c += 4)
+		for (size_t k = 0, none = !has_color(c); k < 4; k++)
+			*color++ = none || isnan(c[k]) ? 255 : mr_shade_byte(&r->shades[k == 3], c[k]);
 	for (int k = 0; k < 2; k++)
-		mr_shades_said(ctx, &r->shades[k]);
+		mr_shades_said(r->b->ctx, &r->shades[k]);
+}
+
+/* The values of a part that has no value for none; NULL where it is not there, or one is not finite. */
+static const double *
+finish_part(mr_rows *r, size_t part)
+{
+	const size_t width = kinds[part].width;
+	size_t odd = 0;
+
+	for (size_t i = 0; r->part[part] && i < r->n; i++) {
+		const double *x = r->part[part] + width * i;
+		odd += !isfinite(x[0] + x[1] + x[width - 1]) ? 1 : 0;
+	}
+	return mr_all_left(r->b->ctx, odd, r->n, kinds[part].what) ? r->part[part] : NULL;
 }
 
 void
 mr_rows_end(mr_rows *r)
 {
-	mr_builder *b = r->b;
+	mr_model *m = &r->b->m;
+	mr_v3 *normal = (mr_v3 *)r->part[NORMAL];
 
-	b->nv = r->n;
-	if (b->normal && !mr_normals_left(b->ctx, b->normal, r->n))
-		b->normal = NULL;
-	if (!mr_all_left(b->ctx, r->odd_uv, r->n, "texture coordinates"))
-		b->texcoord = NULL;
-	if (!mr_all_left(b->ctx, r->odd_scanner, r->n, "places of the scanner"))
-		b->scanner = NULL;
+	m->nv = r->n;
+	m->p = (const mr_v3 *)r->part[POSITION];
+	m->normal = normal && mr_normals_left(r->b->ctx, normal, r->n) ? normal : NULL;
+	m->texcoord = finish_part(r, TEXCOORD);
+	m->scanner = (const mr_v3 *)finish_part(r, SCANNER);
 	finish_colors(r);
 }
 

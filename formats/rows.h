@@ -34,6 +34,9 @@ typedef enum mr_role {
 /* The role of a name in files, in either case of letters. */
 mr_role mr_role_of(const char *name, size_t bytes);
 
+/* What columns make together: position, normal, colour, texture coordinates, the scanner's place. */
+enum { MR_PARTS = 5 };
+
 typedef struct mr_rows_column {
 	mr_role role;
 	const char *name, *type; /* type: of PLY; NULL: what has no role is passed over */
@@ -44,13 +47,13 @@ typedef struct mr_rows {
 	mr_builder *b;
 	mr_rows_column *column;
 	size_t columns, column_room;
-	size_t at[MR_ROLES]; /* the column of a role, from 1; 0: none */
-	size_t n;            /* rows so far */
-	size_t room[5];
-	float *rgba;         /* 4 n; NaN of what is not there; NULL: nothing is */
+	size_t at[MR_ROLES];    /* the column of a role, from 1; 0: none */
+	size_t n;               /* rows so far */
+	double *part[MR_PARTS]; /* of all rows: NaN of an alpha, and in a sparse one of a colour, that is not
+	                           there */
+	size_t room[MR_PARTS];
 	mr_shades shades[2]; /* of colours, of alpha; full: 0 where the values tell */
-	bool sparse;         /* rows may be without a colour: those are white */
-	size_t odd_colors, odd_uv, odd_scanner;
+	bool sparse;         /* rows may be without a colour, NaN: those are white */
 } mr_rows;
 
 /* A column more; the first of a role has it.  The name is copied, cleaned. */
@@ -81,8 +84,7 @@ typedef struct mr_part {
 	const char *names; /* of the columns, a blank between */
 } mr_part;
 
-/* The parts of a model's vertices: position, normal, colour, texture coordinates, the scanner's place. */
-enum { MR_PARTS = 5 };
+/* The parts of a model's vertices. */
 void mr_vertex_parts(const mr_model *m, mr_part part[MR_PARTS]);
 
 mr_part mr_property_part(const mr_property *p);

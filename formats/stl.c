@@ -68,10 +68,11 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 typedef struct ascii {
 	mr_scan text;
 	mr_builder b;
-	size_t corners, room; /* of all facets, in b.p */
-	size_t first;         /* corner of the facet at hand */
-	size_t solids;        /* so far */
-	bool inside;          /* of a solid */
+	mr_v3 *p; /* of the corners of all facets */
+	size_t corners, room;
+	size_t first;  /* corner of the facet at hand */
+	size_t solids; /* so far */
+	bool inside;   /* of a solid */
 } ascii;
 
 /* Corners are vertices of their own until all are there; a facet is a face of them. */
@@ -118,8 +119,8 @@ read_word(ascii *a, const char *w, size_t n)
 	else if (mr_word_is(w, n, "endloop"))
 		return end_facet(a, w);
 	else if (mr_word_is(w, n, "vertex")) {
-		MR_RESERVE(a->text.ctx, a->b.p, a->corners, 1, &a->room);
-		return mr_scan_position(&a->text, &a->b.p[a->corners++]);
+		MR_RESERVE(a->text.ctx, a->p, a->corners, 1, &a->room);
+		return mr_scan_position(&a->text, &a->p[a->corners++]);
 	}
 	return MR_OK;
 }
@@ -139,7 +140,8 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (a.inside)
 		return mr_scan_fail(&a.text, a.text.end, "the file ends inside a solid");
 	map = MR_NEW(ctx, a.corners, uint32_t);
-	join_corners(ctx, a.b.p, a.corners, map, &a.b.nv);
+	join_corners(ctx, a.p, a.corners, map, &a.b.m.nv);
+	a.b.m.p = a.p;
 	for (size_t i = 0; i < a.b.corners; i++)
 		a.b.corner[i] = map[a.b.corner[i]];
 	return mr_build_finish(&a.b, m);

@@ -404,7 +404,7 @@ are_halves(const table *t)
 
 	if (!t->counted || t->columns != 3 || t->count == 0 || t->rows != 2 * t->count)
 		return false;
-	for (const mr_v3 *n = t->b.p + t->count; n < t->b.p + t->rows; n++)
+	for (const mr_v3 *n = t->b.m.p + t->count; n < t->b.m.p + t->rows; n++)
 		others += !mr_has_unit_length(*n) && mr_norm2(*n) > 0;
 	return others <= t->count / 100;
 }
@@ -413,19 +413,19 @@ are_halves(const table *t)
 static void
 finish_normals(table *t)
 {
-	mr_builder *b = &t->b;
+	mr_model *m = &t->b.m;
 	size_t zero = 0;
 
 	if (are_halves(t)) {
-		b->nv = (size_t)t->count;
-		b->normal = b->p + b->nv;
+		m->nv = (size_t)t->count;
+		m->normal = m->p + m->nv;
 	} else if (t->counted && t->rows > t->count)
 		mr_tell(t->ctx, MR_GUESSED, 1, "%zu points, where the file counts %llu", t->rows,
 		    (unsigned long long)t->count);
-	while (b->normal && zero < b->nv && mr_norm2(b->normal[zero]) == 0)
+	while (m->normal && zero < m->nv && mr_norm2(m->normal[zero]) == 0)
 		zero++;
-	if (zero == b->nv)
-		b->normal = NULL;
+	if (zero == m->nv)
+		m->normal = NULL;
 }
 
 mr_status

@@ -52,7 +52,8 @@ pcd rgba 4 U 66051 | rgb
 pcd rgb 8 U 66051 | mr-import | mr-info | grep -o 'rgb'
 
 echo '-- alpha that a format has not'
-pcd rgba 4 U 2147549441 | mr-import -q -o alpha.mrs
+pcd rgba 4 U 2147549441 | mr-import 2>&1 >alpha.mrs
+printf 'COFF\n1 0 0\n0 0 0 1 1 1 128\n' | mr-import -q -o alpha.mrs
 for format in xyz pts obj; do
 	mr-export -f $format -i alpha.mrs out 2>&1
 done
