@@ -2,6 +2,7 @@
 #include "mesh/guarded_move.h"
 
 #include "base/parallel.h"
+#include "mesh/dynmesh.h"
 
 enum { GRAIN = 256 };
 
@@ -93,8 +94,6 @@ hold_back(move *w, uint32_t v)
 	if (memcmp(&w->to[v], &w->from[v], sizeof *w->to) == 0)
 		return false;
 	w->to[v] = w->round < w->g->halves ? mr_lerp(0.5, w->from[v], w->to[v]) : w->from[v];
-	if (w->g->held)
-		w->g->held(w->g->arg, v);
 	return true;
 }
 
@@ -165,4 +164,40 @@ mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+/* Cosine of 60 degrees, by which a face may turn at once: at 90 a wrap of a handful of points folds in on
+ * itself. */
+static const double TURN = 0.5;
+
+typedef struct unfolded {
+	mr_mesh from, to;
+	const uint32_t *twin;
+	double needle;
+} unfolded;
+
+static bool
+turns(const void *arg, uint32_t f)
+{
+	const unfolded *s = arg;
+	const uint32_t *v = s->from.t[f].v;
+	const mr_v3 *p = s->from.p, *q = s->to.p;
+	mr_v3 before = mr_face_cross(&s->from, f), after = mr_face_cross(&s->to, f);
+	double turn = mr_dot(before, after);
+
+	double shape = mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]);
+
+	return (shape < s->needle && shape < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]])) ||
+	       turn <= TURN * sqrt(mr_norm2(before) * mr_norm2(after)) ||
+	       mr_folds_more(&s->from, &s->to, s->twin, f, MR_NEAR_FOLD);
+}
+
+mr_status
+mr_move_unfolded(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double needle, mr_v3 *to)
+{
+	unfolded s = { *m, *m, topo->twin, needle };
+	mr_guard g = { .t = m->t, .topo = *topo, .nv = m->nv, .nf = m->nf, .is_bad = turns, .arg = &s };
+
+	s.to.p = to;
+	return mr_guarded_move(ctx, &g, m->p, to);
 }

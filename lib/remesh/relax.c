@@ -8,11 +8,6 @@
 
 enum { GRAIN = 2048 };
 
-/* A unit vector, or none: precise enough to compare angles. */
-typedef struct direction {
-	float x, y, z;
-} direction;
-
 typedef struct pass {
 	mr_dyn *d;
 	const mr_remesh_source *s;
@@ -20,10 +15,8 @@ typedef struct pass {
 	bool project;      /* in this pass */
 	float *part;       /* in the same memory as p: of each half-edge, as in areas_job */
 	double *gravity;   /* of each vertex, first its area */
-	direction *normal; /* of the source at the place of each vertex */
 	mr_v3 *p;          /* where the vertices go */
 	uint32_t *at;
-	mr_mesh from, to;
 } pass;
 
 double
@@ -248,111 +241,17 @@ move_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Keeps the normal of the source at the place of v, for all passes in which it stays there: to find it each
- * time for each face takes a third of the guard's time. */
-static void
-keep_normal(const pass *w, uint32_t v)
-{
-	mr_v3 n = mr_unit(mr_face_cross(w->s->m, mr_dyn_place(w->d, v)));
-
-	w->normal[v] = (direction){ (float)n.x, (float)n.y, (float)n.z };
-}
-
-static void
-normals_body(void *arg, size_t begin, size_t end)
-{
-	const pass *w = arg;
-
-	for (uint32_t v = (uint32_t)begin; v < end; v++)
-		if (w->d->kind[v] != MR_DEAD)
-			keep_normal(w, v);
-}
-
-/* Normal of the source where face f of the mesh lies. */
-static mr_v3
-source_normal(const pass *w, size_t f)
-{
-	direction n = w->normal[w->d->v[3 * f]];
-
-	return (mr_v3){ n.x, n.y, n.z };
-}
-
-/* True where the two vectors are more than 60 degrees apart. */
-static bool
-apart(mr_v3 a, mr_v3 b)
-{
-	double ab = mr_dot(a, b);
-
-	return ab < 0 || ab * ab < 0.25 * mr_norm2(a) * mr_norm2(b);
-}
-
-/* True where the two vectors are less than 45 degrees apart. */
-static bool
-faces(mr_v3 a, mr_v3 b)
-{
-	double ab = mr_dot(a, b);
-
-	return ab > 0 && ab * ab > 0.5 * mr_norm2(a) * mr_norm2(b);
-}
-
-/* True where the move closes face f against a neighbour. */
-static bool
-folds(const pass *w, uint32_t f)
-{
-	return mr_folds_more(&w->from, &w->to, w->d->twin, f, MR_NEAR_FOLD);
-}
-
-/*
- * True where the move turns face f by more than 60 degrees, folds it, or leaves it a worse needle than
- * before.  Folds are looked for where the face leaves the source's direction, which also tells what
- * way a needle faces.
- */
-static bool
-turns(const void *arg, uint32_t f)
-{
-	const pass *w = arg;
-	const uint32_t *v = &w->d->v[3 * f];
-	const mr_v3 *p = w->d->p, *q = w->p;
-	mr_v3 before = mr_dyn_cross(w->d, p, f), after = mr_dyn_cross(w->d, q, f), normal;
-
-	if (mr_dyn_is_needle(after, q[v[0]], q[v[1]], q[v[2]]) &&
-	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
-		return true;
-	normal = source_normal(w, f);
-	if (mr_dot(after, normal) < 0 && mr_remesh_against(w->s, w->d, w->at, v, after) &&
-	    !mr_remesh_against(w->s, w->d, w->d->at, v, before))
-		return true;
-	if (!faces(after, normal) && folds(w, f))
-		return true;
-	if (mr_dot(after, normal) >= 0 && !apart(before, after))
-		return false;
-	if (!mr_dyn_is_needle(before, p[v[0]], p[v[1]], p[v[2]]))
-		return apart(before, after) && (!faces(after, normal) || folds(w, f));
-	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
-}
-
-/* The place of what stays is where it was. */
-static void
-hold_place(void *arg, uint32_t v)
-{
-	pass *w = arg;
-
-	w->at[v] = w->d->at[v];
-}
-
-/* The vertices are where they went. */
+/* The vertices are where they went; the place of what was held back is where it was. */
 static void
 arrive_body(void *arg, size_t begin, size_t end)
 {
 	const pass *w = arg;
 	mr_dyn *d = w->d;
 
-	for (uint32_t v = (uint32_t)begin; v < end; v++) {
-		bool elsewhere = d->kind[v] != MR_DEAD && w->at[v] != d->at[v];
+	for (size_t v = begin; v < end; v++) {
+		if (memcmp(&w->p[v], &d->p[v], sizeof *d->p) != 0)
+			d->at[v] = w->at[v];
 		d->p[v] = w->p[v];
-		d->at[v] = w->at[v];
-		if (elsewhere)
-			keep_normal(w, v);
 	}
 }
 
@@ -363,13 +262,9 @@ pass_new(mr_ctx *ctx, pass *w)
 	char *shared = MR_NEW(ctx, p > parts ? p : parts, char);
 
 	w->gravity = w->o->gravity > 0 ? MR_NEW(ctx, nv, double) : NULL;
-	w->normal = MR_NEW(ctx, nv, direction);
 	w->at = MR_NEW(ctx, nv, uint32_t);
 	w->part = (void *)shared;
 	w->p = (void *)shared;
-	w->from = w->to = mr_dyn_view(w->d, w->s->m->name);
-	w->to.p = w->p;
-	mr_parallel(ctx, nv, GRAIN, normals_body, w);
 }
 
 /* The masses of the vertices, where they have any. */
@@ -385,14 +280,11 @@ find_gravity(mr_ctx *ctx, pass *w)
 static mr_status
 one_pass(mr_ctx *ctx, mr_dyn *d, pass *w)
 {
-	mr_guard guard = mr_dyn_guard(d);
+	mr_mesh m = mr_dyn_view(d, w->s->m->name);
 
 	find_gravity(ctx, w);
 	mr_parallel(ctx, d->nv, GRAIN, move_body, w);
-	guard.is_bad = turns;
-	guard.held = hold_place;
-	guard.arg = w;
-	return mr_guarded_move(ctx, &guard, d->p, w->p);
+	return mr_move_unfolded(ctx, &m, &(mr_topology){ d->twin, d->out }, MR_NEEDLE, w->p);
 }
 
 mr_status

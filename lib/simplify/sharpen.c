@@ -2,7 +2,6 @@
  * A vertex goes to where the planes of the points around it meet: Kobbelt, Botsch, Schwanecke, Seidel 2001
  * (Feature sensitive surface extraction), Ju, Losasso, Schaefer, Warren 2002 (Dual contouring).
  */
-#include "mesh/fold.h"
 #include "mesh/guarded_move.h"
 #include "simplify/creases.h"
 #include "space/local_planes.h"
@@ -77,32 +76,6 @@ sharp_place(const mr_planes *planes, const mr_v3 *point, const uint32_t *near, d
 	return solve(&s, &x) && mr_norm(x) < FARTHEST * width ? mr_add(at, x) : at;
 }
 
-typedef struct sharpening {
-	mr_mesh from, to;
-	const uint32_t *twin;
-} sharpening;
-
-static bool
-is_bad(const void *arg, uint32_t f)
-{
-	const sharpening *s = arg;
-
-	return mr_dot(mr_face_cross(&s->from, f), mr_face_cross(&s->to, f)) < 0 ||
-	       mr_folds_more(&s->from, &s->to, s->twin, f, MR_NEAR_FOLD);
-}
-
-static mr_status
-move(mr_ctx *ctx, const mr_mesh *m, mr_v3 *to)
-{
-	sharpening s = { .from = *m, .to = *m };
-	mr_guard guard = { .t = m->t, .nv = m->nv, .nf = m->nf, .is_bad = is_bad, .arg = &s };
-
-	MR_TRY(mr_topology_build(ctx, m, &guard.topo));
-	s.to.p = to;
-	s.twin = guard.topo.twin;
-	return mr_guarded_move(ctx, &guard, m->p, to);
-}
-
 /* Whether enough of some vertices, at equal strides, are near a sharp edge: up to 2.5 % are of smooth
  * surfaces. */
 static mr_status
@@ -137,6 +110,7 @@ mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_v3 *to,
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *near = mr_alloc(ctx, m->nv, NEAREST * sizeof *near);
+	mr_topology topo;
 	mr_planes planes;
 
 	MR_TRY(look_for_edges(ctx, m, c, any));
@@ -145,7 +119,8 @@ mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_v3 *to,
 		MR_TRY(mr_near_query(ctx, c->near, m->p, m->nv, NEAREST, near, NULL));
 		for (size_t v = 0; v < m->nv; v++)
 			to[v] = sharp_place(&planes, c->p, near + NEAREST * v, c->sampling.usual, m->p[v]);
-		MR_TRY(move(ctx, m, to));
+		MR_TRY(mr_topology_build(ctx, m, &topo));
+		MR_TRY(mr_move_unfolded(ctx, m, &topo, 0, to));
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -5,50 +5,15 @@
 #include "space/self_intersect.h"
 #include "wrap/parts.h"
 
-/* Cosine of 60 degrees, by which a face may turn at once: at 90 a wrap of a handful of points folds in on
- * itself. */
-static const double TURN = 0.5;
-
 /* Height over longest edge of a face that would soon have no normal. */
 static const double SLIVER = 0.02;
-
-typedef struct guard {
-	const mr_dyn *d;
-	mr_mesh from, to;
-} guard;
-
-static double
-shape_of(const mr_mesh *m, uint32_t f)
-{
-	const uint32_t *v = m->t[f].v;
-
-	return mr_dyn_shape(m->p[v[0]], m->p[v[1]], m->p[v[2]]);
-}
-
-/* True where the move turns face f too far, closes it against a neighbour, or leaves it a worse
- * sliver. */
-static bool
-turns(const void *arg, uint32_t f)
-{
-	const guard *s = arg;
-	mr_v3 before = mr_face_cross(&s->from, f), after = mr_face_cross(&s->to, f);
-	double shape = shape_of(&s->to, f);
-
-	return (shape < SLIVER && shape < shape_of(&s->from, f)) ||
-	       mr_dot(before, after) <= TURN * sqrt(mr_norm2(before) * mr_norm2(after)) ||
-	       mr_folds_more(&s->from, &s->to, s->d->twin, f, MR_NEAR_FOLD);
-}
 
 mr_status
 mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d)
 {
-	guard s = { d, mr_dyn_view(d, "control"), mr_dyn_view(d, "control") };
-	mr_guard g = mr_dyn_guard(d);
+	mr_mesh m = mr_dyn_view(d, "control");
 
-	s.to.p = to;
-	g.is_bad = turns;
-	g.arg = &s;
-	MR_TRY(mr_guarded_move(ctx, &g, d->p, to));
+	MR_TRY(mr_move_unfolded(ctx, &m, &(mr_topology){ d->twin, d->out }, SLIVER, to));
 	memcpy(d->p, to, d->nv * sizeof *to);
 	return MR_OK;
 }
