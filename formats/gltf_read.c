@@ -45,16 +45,12 @@ from_parts(const double t[3], const double q[4], const double s[3])
 static mr_status
 normalize(mr_ctx *ctx, double q[4])
 {
-	double most = fmax(fmax(fabs(q[0]), fabs(q[1])), fmax(fabs(q[2]), fabs(q[3]))), squares = 0;
+	double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
 
-	if (most == 0)
-		return mr_fail(ctx, MR_EFORMAT, "rotation is zero, which is no quaternion of unit length");
-	for (int i = 0; i < 4; i++) {
-		q[i] /= most; /* squares neither over- nor underflow */
-		squares += q[i] * q[i];
-	}
+	if (!isnormal(length))
+		return mr_fail(ctx, MR_EFORMAT, "rotation is of length %g, not a unit quaternion", length);
 	for (int i = 0; i < 4; i++)
-		q[i] /= sqrt(squares);
+		q[i] /= length;
 	return MR_OK;
 }
 
@@ -221,10 +217,13 @@ find_scene(const mr_gltf *g, instances *s)
 /* How a primitive makes faces of its vertices. */
 enum { POINTS = 0, LINE_STRIP = 3, TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
+/* What vertices have. */
+enum { POSITION, NORMAL, TEXCOORD, COLOR, ATTRIBUTES };
+
 /* A primitive of a mesh of the scene, and its accessors; MR_UNKNOWN: none. */
 typedef struct part {
 	const instance *of;
-	size_t position, normal, texcoord, color, indices, material;
+	size_t accessor[ATTRIBUTES], indices, material;
 	size_t mode, corners;
 	size_t first, count; /* its vertices */
 	bool own;            /* that no part before it has read */
@@ -237,16 +236,82 @@ typedef struct reader {
 	instances scene;
 	part *part;
 	size_t parts, part_room;
-	size_t n, nf;         /* vertices as the file has them; faces, at most */
-	mr_v3 *p, *normal;    /* n; zero: none */
-	double *uv;           /* 2 n; NaN: none */
-	unsigned char *color; /* 4 n */
-	mr_shades shades;     /* of 1 */
-	size_t odd_uv, odd_colors;
+	size_t n, nf; /* vertices as the file has them; faces, at most */
+	double *
+	    column[ATTRIBUTES]; /* of vertices, whose normals may be zero, texture coordinates NaN; or NULL */
+	size_t odd_uv;
 	uint32_t *join;                    /* n: the vertex of the model */
 	uint32_t *index;                   /* of the part at hand */
 	size_t lines, targets, attributes; /* that are left out */
 } reader;
+
+/* ---- what the values of vertices become ---- */
+
+static mr_v3
+row(const mr_affine *a, int i)
+{
+	return mr_vec(a->m[4 * i], a->m[4 * i + 1], a->m[4 * i + 2]);
+}
+
+static double
+determinant(const mr_affine *a)
+{
+	return mr_dot(row(a, 0), mr_cross(row(a, 1), row(a, 2)));
+}
+
+/* A normal goes with the cofactors, which turn it over where the map mirrors: the faces are turned over
+ * there, so that it is turned back. */
+static mr_v3
+apply_to_normal(const mr_affine *a, mr_v3 n)
+{
+	mr_v3 x = mr_cross(row(a, 1), row(a, 2)), y = mr_cross(row(a, 2), row(a, 0)),
+	      z = mr_cross(row(a, 0), row(a, 1));
+	mr_v3 turned = mr_unit(mr_vec(mr_dot(x, n), mr_dot(y, n), mr_dot(z, n)));
+
+	return determinant(a) < 0 ? mr_mul(-1, turned) : turned;
+}
+
+static void
+place_positions(reader *r, const part *p, double *x)
+{
+	mr_v3 *position = (mr_v3 *)(void *)x;
+
+	(void)r;
+	for (size_t i = 0; i < p->count && !mr_is_identity(&p->of->map); i++)
+		position[i] = mr_apply(&p->of->map, position[i]);
+}
+
+static void
+turn_normals(reader *r, const part *p, double *x)
+{
+	mr_v3 *normal = (mr_v3 *)(void *)x;
+
+	(void)r;
+	for (size_t i = 0; i < p->count && !mr_is_identity(&p->of->map); i++)
+		if (mr_finite(normal[i]))
+			normal[i] = apply_to_normal(&p->of->map, normal[i]);
+}
+
+/* v runs down the picture in glTF, up in OBJ. */
+static void
+turn_texcoords(reader *r, const part *p, double *uv)
+{
+	for (size_t i = 0; i < p->count; i++) {
+		uv[2 * i + 1] = 1 - uv[2 * i + 1];
+		if (isfinite(uv[2 * i]) && isfinite(uv[2 * i + 1]))
+			continue;
+		uv[2 * i] = (double)NAN;
+		r->odd_uv++;
+	}
+}
+
+static const struct {
+	const char *name;
+	size_t width, least; /* least: the numbers that an accessor must have of it */
+	double none;         /* of vertices without */
+	void (*change)(reader *r, const part *p, double *x);
+} attributes[ATTRIBUTES] = { { "POSITION", 3, 3, 0, place_positions }, { "NORMAL", 3, 3, 0, turn_normals },
+	{ "TEXCOORD_0", 2, 2, (double)NAN, turn_texcoords }, { "COLOR_0", 4, 3, 1, NULL } };
 
 /* ---- the primitives of the scene ---- */
 
@@ -259,17 +324,12 @@ faces_of(size_t mode, size_t corners)
 static mr_status
 find_accessors(reader *r, const json_t *json, part *p)
 {
-	const json_t *attributes = json_object_get(json, "attributes");
-	const struct {
-		const char *name;
-		size_t *accessor;
-	} read[] = { { "POSITION", &p->position }, { "NORMAL", &p->normal }, { "TEXCOORD_0", &p->texcoord },
-		{ "COLOR_0", &p->color } };
+	const json_t *list = json_object_get(json, "attributes");
 
-	r->attributes += json_object_size(attributes);
-	for (size_t i = 0; i < sizeof read / sizeof *read; i++) {
-		MR_TRY(mr_gltf_index(&r->g, attributes, read[i].name, "accessors", read[i].accessor));
-		r->attributes -= *read[i].accessor != MR_UNKNOWN;
+	r->attributes += json_object_size(list);
+	for (size_t k = 0; k < ATTRIBUTES; k++) {
+		MR_TRY(mr_gltf_index(&r->g, list, attributes[k].name, "accessors", &p->accessor[k]));
+		r->attributes -= p->accessor[k] != MR_UNKNOWN;
 	}
 	MR_TRY(mr_gltf_index(&r->g, json, "material", "materials", &p->material));
 	return mr_gltf_index(&r->g, json, "indices", "accessors", &p->indices);
@@ -301,7 +361,7 @@ count_rows(reader *r, size_t accessor, size_t width, size_t *rows)
 static bool
 shares_vertices(const part *p, const part *before)
 {
-	return before && p->position == before->position &&
+	return before && p->accessor[POSITION] == before->accessor[POSITION] &&
 	       !memcmp(&p->of->map, &before->of->map, sizeof p->of->map) &&
 	       (p->mode == POINTS) == (before->mode == POINTS);
 }
@@ -312,10 +372,8 @@ count_part(reader *r, part *p)
 	const part *before = r->parts ? &r->part[r->parts - 1] : NULL;
 
 	p->count = p->corners = MR_UNKNOWN;
-	MR_TRY(count_rows(r, p->position, 3, &p->count));
-	MR_TRY(count_rows(r, p->normal, 3, &p->count));
-	MR_TRY(count_rows(r, p->texcoord, 2, &p->count));
-	MR_TRY(count_rows(r, p->color, 3, &p->count));
+	for (size_t k = 0; k < ATTRIBUTES; k++)
+		MR_TRY(count_rows(r, p->accessor[k], attributes[k].least, &p->count));
 	MR_TRY(count_rows(r, p->indices, 1, &p->corners));
 	if (p->indices == MR_UNKNOWN)
 		p->corners = p->count;
@@ -343,7 +401,7 @@ add_part(reader *r, const json_t *json, const instance *of)
 		return MR_OK;
 	}
 	MR_TRY(find_accessors(r, json, &p));
-	if (p.position == MR_UNKNOWN) /* by the specification there is nothing to draw */
+	if (p.accessor[POSITION] == MR_UNKNOWN) /* by the specification there is nothing to draw */
 		return MR_OK;
 	MR_TRY(count_part(r, &p));
 	MR_RESERVE(r->g.ctx, r->part, r->parts, 1, &r->part_room);
@@ -366,152 +424,54 @@ find_parts(reader *r)
 
 /* ---- vertices as the file has them ---- */
 
-static mr_v3
-row(const mr_affine *a, int i)
-{
-	return mr_vec(a->m[4 * i], a->m[4 * i + 1], a->m[4 * i + 2]);
-}
-
-static double
-determinant(const mr_affine *a)
-{
-	return mr_dot(row(a, 0), mr_cross(row(a, 1), row(a, 2)));
-}
-
-/* A normal goes with the cofactors, which turn it over where the map mirrors: the faces are turned over
- * there, so that it is turned back. */
-static mr_v3
-apply_to_normal(const mr_affine *a, mr_v3 n)
-{
-	mr_v3 x = mr_cross(row(a, 1), row(a, 2)), y = mr_cross(row(a, 2), row(a, 0)),
-	      z = mr_cross(row(a, 0), row(a, 1));
-	mr_v3 turned = mr_unit(mr_vec(mr_dot(x, n), mr_dot(y, n), mr_dot(z, n)));
-
-	return determinant(a) < 0 ? mr_mul(-1, turned) : turned;
-}
-
-static void
-read_positions(reader *r, const part *p, const mr_accessor *a)
-{
-	bool moves = !mr_is_identity(&p->of->map);
-
-	mr_accessor_reals(a, 3, &r->p[p->first].x);
-	for (size_t i = 0; i < p->count; i++) {
-		mr_v3 *x = &r->p[p->first + i];
-		if (moves)
-			*x = mr_apply(&p->of->map, *x);
-	}
-}
-
-static void
-read_normals(reader *r, const part *p, const mr_accessor *a)
-{
-	bool moves = !mr_is_identity(&p->of->map);
-
-	mr_accessor_reals(a, 3, &r->normal[p->first].x);
-	for (size_t i = 0; i < p->count; i++) {
-		mr_v3 *n = &r->normal[p->first + i];
-		if (moves && mr_finite(*n))
-			*n = apply_to_normal(&p->of->map, *n);
-	}
-}
-
-/* v runs down the picture in glTF, up in OBJ. */
-static void
-read_texcoords(reader *r, const part *p, const mr_accessor *a)
-{
-	double *uv = r->uv + 2 * p->first;
-
-	mr_accessor_reals(a, 2, uv);
-	for (size_t i = 0; i < p->count; i++) {
-		uv[2 * i + 1] = 1 - uv[2 * i + 1];
-		r->odd_uv += !isfinite(uv[2 * i]) || !isfinite(uv[2 * i + 1]);
-	}
-}
-
-/* Colours are linear there. */
-static void
-read_colors(reader *r, const part *p, const mr_accessor *a)
-{
-	mr_mark mark = mr_mark_take(r->g.ctx);
-	double *x = MR_NEW(r->g.ctx, 4 * p->count, double);
-
-	for (size_t i = 0; i < p->count; i++)
-		x[4 * i + 3] = 1;
-	mr_accessor_reals(a, 4, x);
-	for (size_t i = 0; i < 4 * p->count; i++) {
-		r->odd_colors += isnan(x[i]) ? 1 : 0;
-		r->color[4 * p->first + i] = mr_shade_byte(
-		    &r->shades, i % 4 == 3 ? x[i] : mr_linear_to_srgb(x[i]));
-	}
-	mr_mark_release(r->g.ctx, mark);
-}
-
-typedef void read_values(reader *r, const part *p, const mr_accessor *a);
-
 /* Values of vertices, unless the part before has read them. */
 static mr_status
-read_column(reader *r, const part *p, size_t accessor, size_t before, read_values *read)
+read_column(reader *r, const part *p, size_t k)
 {
+	size_t number = p->accessor[k];
+	double *x = r->column[k] + attributes[k].width * p->first;
 	mr_accessor a;
 
-	if (accessor == MR_UNKNOWN || (!p->own && accessor == before))
+	if (number == MR_UNKNOWN || (!p->own && number == p[-1].accessor[k]))
 		return MR_OK;
-	MR_TRY(mr_accessor_open(&r->g, accessor, &a));
-	read(r, p, &a);
+	MR_TRY(mr_accessor_open(&r->g, number, &a));
+	mr_accessor_reals(&a, attributes[k].width, x);
+	if (attributes[k].change)
+		attributes[k].change(r, p, x);
 	return MR_OK;
 }
 
-/* What some parts have, the others have not yet. */
-static void
-make_columns(reader *r)
+/* What some parts have, the others have not. */
+static mr_status
+read_columns(reader *r, size_t k)
 {
-	mr_ctx *ctx = r->g.ctx;
-	bool normal = false, texcoord = false, color = false;
+	size_t n = attributes[k].width * r->n;
+	bool there = false;
 
-	for (size_t i = 0; i < r->parts; i++) {
-		const part *p = &r->part[i];
-		normal |= p->normal != MR_UNKNOWN;
-		texcoord |= p->texcoord != MR_UNKNOWN;
-		color |= p->color != MR_UNKNOWN;
-	}
-	r->p = MR_NEW(ctx, r->n, mr_v3);
-	r->join = MR_NEW(ctx, r->n, uint32_t);
-	if (normal)
-		r->normal = MR_NEW_ZERO(ctx, r->n, mr_v3);
-	if (texcoord)
-		r->uv = MR_NEW(ctx, 2 * r->n, double);
-	if (color)
-		r->color = MR_NEW(ctx, 4 * r->n, unsigned char);
-	for (size_t i = 0; texcoord && i < 2 * r->n; i++)
-		r->uv[i] = NAN;
-	if (color)
-		memset(r->color, 255, 4 * r->n);
+	for (size_t i = 0; i < r->parts; i++)
+		there |= r->part[i].accessor[k] != MR_UNKNOWN;
+	if (!there)
+		return MR_OK;
+	r->column[k] = MR_NEW(r->g.ctx, n, double);
+	for (size_t i = 0; i < n; i++)
+		r->column[k][i] = attributes[k].none;
+	for (size_t i = 0; i < r->parts; i++)
+		MR_TRY(read_column(r, &r->part[i], k));
+	return MR_OK;
 }
 
 static mr_status
 read_vertices(reader *r)
 {
-	static const part none = { .normal = MR_UNKNOWN, .texcoord = MR_UNKNOWN, .color = MR_UNKNOWN };
-
-	make_columns(r);
-	for (size_t i = 0; i < r->parts; i++) {
-		const part *p = &r->part[i], *before = i ? p - 1 : &none;
-		MR_TRY(read_column(r, p, p->position, p->position, read_positions));
-		MR_TRY(read_column(r, p, p->normal, before->normal, read_normals));
-		MR_TRY(read_column(r, p, p->texcoord, before->texcoord, read_texcoords));
-		MR_TRY(read_column(r, p, p->color, before->color, read_colors));
-	}
-	for (size_t i = 0; i < r->n; i++)
-		if (!mr_finite(r->p[i]))
-			return mr_fail(r->g.ctx, MR_EFORMAT, "position %zu is not finite", i);
-	if (r->normal && !mr_normals_left(r->g.ctx, r->normal, r->n))
-		r->normal = NULL;
+	for (size_t k = 0; k < ATTRIBUTES; k++)
+		MR_TRY(read_columns(r, k));
+	for (size_t i = 0; i < 3 * r->n; i++)
+		if (!isfinite(r->column[POSITION][i]))
+			return mr_fail(r->g.ctx, MR_EFORMAT, "position %zu is not finite", i / 3);
+	if (r->column[NORMAL] && !mr_normals_left(r->g.ctx, (mr_v3 *)(void *)r->column[NORMAL], r->n))
+		r->column[NORMAL] = NULL;
 	if (!mr_left_out(r->g.ctx, r->odd_uv, r->n, "texture coordinates"))
-		r->uv = NULL;
-	if (!mr_all_left(r->g.ctx, r->odd_colors, r->n, "colors"))
-		r->color = NULL;
-	mr_shades_said(r->g.ctx, &r->shades);
+		r->column[TEXCOORD] = NULL;
 	return MR_OK;
 }
 
@@ -533,32 +493,44 @@ join_mesh(reader *r, size_t i, size_t *end)
 	for (size_t k = first; k < last; k++)
 		r->join[k] = (uint32_t)(k - first);
 	if (faces)
-		mr_weld(r->g.ctx, r->p + first, joined, 0, r->join + first, &joined);
+		mr_weld(r->g.ctx, (mr_v3 *)(void *)r->column[POSITION] + first, joined, 0, r->join + first,
+		    &joined);
 	for (size_t k = first; k < last; k++)
 		r->join[k] += (uint32_t)r->b.m.nv;
 	r->b.m.nv += joined;
 }
 
-/* Each vertex has the first colour that it is given. */
+/* Each vertex has the first colour that it is given.  They are linear in the file. */
 static void
 join_colors(reader *r)
 {
-	unsigned char *color = r->color ? MR_NEW(r->g.ctx, 4 * r->b.m.nv, unsigned char) : NULL;
-	size_t several = 0;
+	const double *x = r->column[COLOR];
+	size_t n = x ? 4 * r->n : 0, odd = 0, several = 0;
+	unsigned char *of = MR_NEW(r->g.ctx, n, unsigned char), *color;
+	mr_shades shades = { .full = 1 };
 
-	for (size_t k = r->n; color && k-- > 0;)
-		memcpy(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
-	for (size_t k = 0; color && k < r->n; k++)
-		several += memcmp(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
-	r->b.m.color = color;
+	for (size_t i = 0; i < n; i++) {
+		odd += isnan(x[i]) ? 1 : 0;
+		of[i] = mr_shade_byte(&shades, i % 4 == 3 ? x[i] : mr_linear_to_srgb(x[i]));
+	}
+	if (!mr_all_left(r->g.ctx, odd, r->n, "colors") || n == 0)
+		return;
+	mr_shades_said(r->g.ctx, &shades);
+	r->b.m.color = color = MR_NEW(r->g.ctx, 4 * r->b.m.nv, unsigned char);
+	for (size_t k = r->n; k-- > 0;)
+		memcpy(color + 4 * (size_t)r->join[k], of + 4 * k, 4);
+	for (size_t k = 0; k < r->n; k++)
+		several += memcmp(color + 4 * (size_t)r->join[k], of + 4 * k, 4) != 0;
 	mr_lost(r->g.ctx, NULL, several, "colors of joined vertices");
 }
 
 static void
 join_vertices(reader *r)
 {
+	const mr_v3 *at = (const mr_v3 *)(const void *)r->column[POSITION];
 	mr_v3 *p;
 
+	r->join = MR_NEW(r->g.ctx, r->n, uint32_t);
 	for (size_t i = 0; i < r->parts;) {
 		size_t end = i;
 		join_mesh(r, i, &end);
@@ -566,13 +538,13 @@ join_vertices(reader *r)
 	}
 	r->b.m.p = p = MR_NEW(r->g.ctx, r->b.m.nv, mr_v3);
 	for (size_t k = r->n; k-- > 0;)
-		p[r->join[k]] = r->p[k];
+		p[r->join[k]] = at[k];
 	join_colors(r);
-	r->b.uv = r->uv;
-	r->b.vn = r->normal;
+	r->b.uv = r->column[TEXCOORD];
+	r->b.vn = (const mr_v3 *)(const void *)r->column[NORMAL];
 	if (r->nf == 0) { /* points are not joined */
-		r->b.m.normal = r->normal;
-		r->b.m.texcoord = r->uv;
+		r->b.m.normal = r->b.vn;
+		r->b.m.texcoord = r->b.uv;
 	}
 }
 
@@ -590,22 +562,19 @@ corners_of(size_t mode, size_t k, size_t c[3])
 static void
 add_face(reader *r, const part *p, size_t k, bool turned)
 {
-	uint32_t v[3], uv[3], vn[3];
+	uint32_t v[3], at[3];
 	size_t c[3];
 
 	corners_of(p->mode, k, c);
 	for (size_t i = 0; i < 3; i++) {
-		size_t corner = c[turned && i ? 3 - i : i],
-		       at = p->first + (r->index ? r->index[corner] : corner);
-		v[i] = r->join[at];
-		uv[i] = p->texcoord != MR_UNKNOWN && r->uv && isfinite(r->uv[2 * at] + r->uv[2 * at + 1])
-		            ? (uint32_t)at
-		            : MR_NONE;
-		vn[i] = p->normal != MR_UNKNOWN && r->normal ? (uint32_t)at : MR_NONE;
+		size_t corner = c[turned && i ? 3 - i : i];
+		at[i] = (uint32_t)p->first + (r->index ? r->index[corner] : (uint32_t)corner);
+		v[i] = r->join[at[i]];
 	}
 	if (p->mode != TRIANGLES && (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]))
 		return; /* a strip goes on elsewhere by such faces */
-	mr_build_face(&r->b, v, r->uv ? uv : NULL, r->normal ? vn : NULL, 3);
+	mr_build_face(&r->b, v, r->b.uv && p->accessor[TEXCOORD] != MR_UNKNOWN ? at : NULL,
+	    r->b.vn && p->accessor[NORMAL] != MR_UNKNOWN ? at : NULL, 3);
 }
 
 /* Names of n things, in their order; of several without a name each is called `what` and its number. */
@@ -701,7 +670,7 @@ say_left(const reader *r)
 mr_status
 mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	reader r = { .b.ctx = ctx, .shades.full = 1 };
+	reader r = { .b.ctx = ctx };
 
 	MR_TRY(mr_gltf_open(ctx, data, size, &r.g));
 	MR_TRY(find_scene(&r.g, &r.scene));

@@ -86,8 +86,8 @@ grep -a -o '"name":"[^"]*"' b.glb
 places() { # of the points, without what rounding leaves
 	mr-export -q -f xyz - | awk 'function near(x) { return int(1e6 * x + (x < 0 ? -0.5 : 0.5)) / 1e6 + 0 } { print near($1), near($2), near($3) }'
 }
-echo '-- rotations that are not of unit length: a quarter turn, with few digits, very long; one that is none' >&2
-for q in '0, 0, 0.7071067811865476, 0.7071067811865476' '0, 0, 2, 2' '0, 0, 0.7071, 0.7071' '0, 0, 1e300, 1e300' '0, 0, 1e-300, 1e-300' '0, 0, 0, 0'; do
+echo '-- rotations that are not of unit length: a quarter turn, with few digits; one that is none' >&2
+for q in '0, 0, 0.7071067811865476, 0.7071067811865476' '0, 0, 2, 2' '0, 0, 0.7071, 0.7071' '0, 0, 0, 0'; do
 	echo "-- $q"
 	echo "root['nodes'][0]['rotation'] = [$q]" | make
 	mr-import a.gltf >a.mrs && places <a.mrs
