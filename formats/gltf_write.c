@@ -15,8 +15,8 @@ typedef struct glb {
 	mr_ctx *ctx;
 	const mr_scene *scene;
 	json_t *root, *samplers, *channels; /* of the animation */
-	bool failed;
-	unsigned char *bin; /* the second chunk */
+	bool failed, large;                 /* large: texture coordinates are, for floats */
+	unsigned char *bin;                 /* the second chunk */
 	size_t bytes, room;
 	const char **image; /* files of the images so far */
 	size_t image_room;
@@ -437,6 +437,7 @@ put_texcoords(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
 		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : NULL;
 		if (m->corner_texcoord && v->corner[i] != MR_NONE)
 			uv = m->corner_texcoord + 2 * (size_t)v->corner[i];
+		w->large |= uv && isfinite(uv[0] + uv[1]) && !has_texcoord(uv);
 		to = mr_store_float(to, has_texcoord(uv) ? (float)uv[0] : 0);
 		to = mr_store_float(to, has_texcoord(uv) ? (float)(1 - uv[1]) : 0);
 	}
@@ -737,6 +738,8 @@ mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
 	}
 	end_root(&w);
 	w.failed |= json_dump_callback(w.root, add_text, &json, JSON_COMPACT) != 0;
+	if (w.large)
+		return mr_fail(w.ctx, MR_ERANGE, "texture coordinates are too large for float32");
 	if (w.failed)
 		return mr_fail(w.ctx, MR_EMEM, "no memory for the JSON of a glb");
 	return put_chunks(&w, json.s);

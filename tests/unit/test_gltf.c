@@ -428,11 +428,16 @@ too_large_for_floats(void **state)
 {
 	const mr_v3 p[] = { { 0, 0, 0 }, { 1e39, 0, 0 }, { 0, 1, 0 } };
 	const mr_tri t = { { 0, 1, 2 } };
-	const mr_model m = { .p = p, .nv = 3, .t = &t, .nf = 1 };
+	const double uv[] = { 0, 0, 1e39, 0, 0, 1 };
+	mr_model m = { .p = p, .nv = 3, .t = &t, .nf = 1 };
 	mr_ctx ctx;
 
 	(void)state;
 	begin(&ctx);
+	assert_int_equal(mr_model_write(&ctx, "large.glb", NULL, &m, NULL), MR_ERANGE);
+	m.nv = m.nf = 1;
+	m.t = &(mr_tri){ { 0, 0, 0 } };
+	m.corner_texcoord = uv;
 	assert_int_equal(mr_model_write(&ctx, "large.glb", NULL, &m, NULL), MR_ERANGE);
 	mr_ctx_free(&ctx);
 }
