@@ -38,6 +38,8 @@ mr_sets_root(uint32_t *parent, uint32_t x)
 static inline void
 mr_sets_join(uint32_t *parent, uint32_t a, uint32_t b)
 {
+	if (parent[a] == parent[b])
+		return;
 	a = mr_sets_root(parent, a);
 	b = mr_sets_root(parent, b);
 	if (a < b)

@@ -6,13 +6,6 @@
 
 enum { LOOKS = 1 << 16, FEW = 5 };
 
-/* What a look at the edges of some faces finds. */
-typedef struct look {
-	size_t edges, torn, from; /* from: an end of the one that changed most */
-	double most2;             /* by so much; its square */
-	bool any_long;
-} look;
-
 static double
 length2(const mr_v3 *p, const mr_mesh *m, uint32_t h)
 {
@@ -35,46 +28,32 @@ change2(const mr_v3 *now, const mr_mesh *then, uint32_t h)
 static double
 base_change2(const mr_ground *g, uint32_t vertex)
 {
-	uint32_t h = 3 * g->at.face[vertex];
+	uint32_t h = 3 * g->face[vertex];
 
 	return fmax(change2(g->now, &g->then, h),
 	    fmax(change2(g->now, &g->then, h + 1), change2(g->now, &g->then, h + 2)));
 }
 
-static void
-look_at_edge(const mr_motion *m, const mr_ground *g, uint32_t h, double long2, look *l)
+static mr_finding
+find_torn(const mr_motion *m, const mr_ground *g, uint32_t *from)
 {
 	const double much2 = 4;
-	double was = length2(m->then->p, m->then, h), is = length2(m->now, m->then, h), change;
+	mr_finding torn = { .kind = MR_TORN, .of = 3 * m->then->nf / 2 };
+	double most2 = 1;
 
-	l->edges++;
-	l->any_long |= was > long2;
-	if (is <= much2 * was && was <= much2 * is)
-		return;
-	change = change2(m->now, m->then, h);
-	if (change <= much2 * base_change2(g, mr_he_from(m->then, h)) ||
-	    change <= much2 * base_change2(g, mr_he_to(m->then, h)))
-		return;
-	l->torn++;
-	if (change > l->most2) {
-		l->from = mr_he_from(m->then, h);
-		l->most2 = change;
-	}
-}
-
-/* Each edge once, but of boundaries half. */
-static look
-look_at_faces(const mr_motion *m, const mr_ground *g, size_t stride, double long2)
-{
-	look l = { .most2 = 1 };
-
-	for (size_t f = 0; f < m->then->nf; f += stride)
-		for (int k = 0; k < 3; k++) {
-			const uint32_t *v = m->then->t[f].v;
-			if (v[k] < v[(k + 1) % 3])
-				look_at_edge(m, g, (uint32_t)(3 * f) + (uint32_t)k, long2, &l);
+	for (size_t i = 0; i < m->changes; i++) {
+		uint32_t h = m->changed[i];
+		double change = change2(m->now, m->then, h);
+		if (change <= much2 * base_change2(g, mr_he_from(m->then, h)) ||
+		    change <= much2 * base_change2(g, mr_he_to(m->then, h)))
+			continue;
+		torn.count++;
+		if (change > most2) {
+			most2 = change;
+			*from = mr_he_from(m->then, h);
 		}
-	return l;
+	}
+	return torn;
 }
 
 /* An orthonormal frame of a face: along its first side, across it, and its normal. */
@@ -92,8 +71,8 @@ frame_of(const mr_mesh *m, const mr_v3 *p, uint32_t f)
 static mr_mat3
 turn_at(const mr_ground *g, uint32_t vertex)
 {
-	mr_mat3 then = frame_of(&g->then, g->then.p, g->at.face[vertex]);
-	mr_mat3 now = frame_of(&g->then, g->now, g->at.face[vertex]);
+	mr_mat3 then = frame_of(&g->then, g->then.p, g->face[vertex]);
+	mr_mat3 now = frame_of(&g->then, g->now, g->face[vertex]);
 
 	return mr_mat3_multiply_transposed(&now, &then);
 }
@@ -147,15 +126,12 @@ judge_chords(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far)
 void
 mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g)
 {
-	const double far = 0.01 * m->diagonal, long2 = 16 * far * far;
-	size_t stride = 1 + m->then->nf / LOOKS;
-	look l = look_at_faces(m, g, stride, long2);
+	const double far = 0.01 * m->diagonal;
+	uint32_t from = 0;
+	mr_finding torn = find_torn(m, g, &from);
 
-	if (l.torn && stride > 1)
-		l = look_at_faces(m, g, 1, long2);
-	if (l.torn > FEW)
-		mr_motion_found(ctx, m, (mr_finding){ .kind = MR_TORN, .count = l.torn, .of = l.edges },
-		    (uint32_t)l.from);
-	if (l.any_long)
+	if (torn.count > FEW)
+		mr_motion_found(ctx, m, torn, from);
+	if (m->longest > 4 * far)
 		judge_chords(ctx, m, g, far);
 }

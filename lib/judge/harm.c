@@ -11,54 +11,29 @@ enum { SAMPLES = 1 << 14, SLOTS = 2 * SAMPLES, FEW = 2048 };
 
 typedef struct crowd {
 	mr_mesh then, now;
-	mr_cells cells;
-	mr_v3 *normal_then, *normal; /* sums around the vertices */
+	const mr_motion *m;
+	mr_cells turned, gathered;
+	uint32_t *vertex; /* of those of then and now, once they are the crowd's alone */
 } crowd;
 
-/* Faces that turn against those around them: of two that are folded one does, by the sum of normals at a
- * corner that they share. */
+/* Of faces that have turned against those around them the sum of unit normals is shorter. */
 
 static bool
-is_against(mr_v3 n, mr_v3 sum)
+turns_against(const mr_ring *r)
 {
-	const double cosine = 0.3; /* that of 85 degrees, half of a fold, is less */
-	double d = mr_dot(n, sum);
+	const float less = 0.1f; /* for each face */
+	mr_float4 then2 = r->then * r->then, now2 = r->now * r->now;
+	float was2 = then2[0] + then2[1] + then2[2], is2 = now2[0] + now2[1] + now2[2];
 
-	return d <= 0 || d * d < cosine * cosine * mr_norm2(n) * mr_norm2(sum);
-}
-
-static bool
-turns_against(const mr_mesh *m, size_t f, const mr_v3 *sum)
-{
-	const uint32_t *v = m->t[f].v;
-	mr_v3 n = mr_face_cross(m, f);
-
-	return mr_norm2(n) > 0 &&
-	       (is_against(n, sum[v[0]]) || is_against(n, sum[v[1]]) || is_against(n, sum[v[2]]));
-}
-
-/* The least cosine that the face's normal has with the sums at its corners. */
-static double
-agreement(const mr_mesh *m, size_t f, const mr_v3 *sum)
-{
-	mr_v3 n = mr_unit(mr_face_cross(m, f));
-	double least = 1;
-
-	for (int k = 0; k < 3; k++)
-		least = fmin(least, mr_dot(n, mr_unit(sum[m->t[f].v[k]])));
-	return least;
+	return is2 < was2 && sqrtf(is2) < sqrtf(was2) - less * r->now[3];
 }
 
 static void
 mark_turned(crowd *c)
 {
-	const double more = 0.1;
-
-	for (size_t f = 0; f < c->now.nf; f++)
-		if (turns_against(&c->now, f, c->normal) &&
-		    agreement(&c->now, f, c->normal) < agreement(&c->then, f, c->normal_then) - more)
-			for (int k = 0; k < 3; k++)
-				mr_cells_mark(&c->cells, c->now.p[c->now.t[f].v[k]]);
+	for (size_t v = 0; v < c->now.nv; v++)
+		if (turns_against(&c->m->ring[v]))
+			mr_cells_mark(&c->turned, c->now.p[v]);
 }
 
 /* Cells that hold what was far apart, or sheets that came by each other, by vertices at equal strides. */
@@ -80,11 +55,17 @@ content_of(content *table, mr_cell at)
 	return &table[i];
 }
 
-/* How far b is before the sheet that a is on. */
-static double
-before_sheet(const mr_mesh *m, const mr_v3 *normal, size_t a, size_t b)
+static mr_v3
+vector(mr_float4 x)
 {
-	return mr_dot(mr_unit(normal[a]), mr_sub(m->p[b], m->p[a]));
+	return mr_vec((double)x[0], (double)x[1], (double)x[2]);
+}
+
+/* How far b is before the sheet that a is on, of normals that sum up to `normal`. */
+static double
+before_sheet(const mr_mesh *m, mr_float4 normal, size_t a, size_t b)
+{
+	return mr_dot(mr_unit(vector(normal)), mr_sub(m->p[b], m->p[a]));
 }
 
 /* Whether b was on one side of the sheet that a is on, and is on the other: on a sheet that faces the other
@@ -93,10 +74,11 @@ static bool
 came_by(const crowd *c, size_t a, size_t b)
 {
 	const double clearly = 0.2;
-	double was = before_sheet(&c->then, c->normal_then, a, b),
-	       is = before_sheet(&c->now, c->normal, a, b);
+	const mr_ring *ring = c->m->ring;
+	double was = before_sheet(&c->then, ring[a].then, a, b),
+	       is = before_sheet(&c->now, ring[a].now, a, b);
 
-	return was * is < 0 && (mr_dot(c->normal[a], c->normal[b]) < 0 ||
+	return was * is < 0 && (mr_dot(vector(ring[a].now), vector(ring[b].now)) < 0 ||
 				   fabs(was) > clearly * mr_dist(c->then.p[a], c->then.p[b]));
 }
 
@@ -104,11 +86,11 @@ static void
 add_vertex(const crowd *c, content *table, uint32_t v)
 {
 	const float far = 3; /* cells */
-	mr_cell at = mr_cell_of(&c->cells, c->now.p[v]);
+	mr_cell at = mr_cell_of(&c->gathered, c->now.p[v]);
 	content *x = content_of(table, at);
 
 	for (int k = 0; k < 3; k++) {
-		float was = (float)(mr_coordinate(c->then.p[v], k) / c->cells.size);
+		float was = (float)(mr_coordinate(c->then.p[v], k) / c->gathered.size);
 		x->low[k] = x->used && x->low[k] < was ? x->low[k] : was;
 		x->high[k] = x->used && x->high[k] > was ? x->high[k] : was;
 		x->crowded |= x->high[k] - x->low[k] > far;
@@ -130,7 +112,7 @@ mark_gathered(mr_ctx *ctx, crowd *c)
 		add_vertex(c, table, v);
 	for (size_t i = 0; i < SLOTS; i++)
 		if (table[i].crowded)
-			mr_cells_mark(&c->cells, c->now.p[table[i].first]);
+			mr_cells_mark(&c->gathered, c->now.p[table[i].first]);
 }
 
 static size_t
@@ -141,14 +123,15 @@ less(size_t a, size_t b)
 
 /* A corner of the face that has most harm, of equal ones the lowest. */
 static uint32_t
-worst_vertex(const mr_mesh *m, const uint32_t *harm)
+worst_vertex(const crowd *c, const uint32_t *harm)
 {
+	const mr_mesh *m = &c->now;
 	size_t worst = 0;
 
 	for (size_t f = 1; f < m->nf; f++)
 		if (harm[f] > harm[worst])
 			worst = f;
-	return m->nf && harm[worst] ? m->t[worst].v[0] : MR_NONE;
+	return m->nf && harm[worst] ? c->vertex[m->t[worst].v[0]] : MR_NONE;
 }
 
 /* Whether the faces at half-edges h and g of an edge are folded. */
@@ -254,9 +237,9 @@ count_pair(void *arg, uint32_t f, uint32_t g)
 
 /* More pairs than there were: where a surface intersects already, others go while some come. */
 static void
-count_pairs(mr_ctx *ctx, const crowd *c, double diagonal, uint32_t *near_harm, uint32_t *far_harm, mr_harm *h)
+count_pairs(mr_ctx *ctx, const crowd *c, uint32_t *near_harm, uint32_t *far_harm, mr_harm *h)
 {
-	const double deep = 0.001 * diagonal;
+	const double deep = 0.001 * c->m->diagonal;
 	uint32_t *part;
 	bool several;
 	tally came = { &c->then, &c->now, NULL, deep, near_harm, far_harm, 0, 0 }, went;
@@ -272,48 +255,99 @@ count_pairs(mr_ctx *ctx, const crowd *c, double diagonal, uint32_t *near_harm, u
 	h->far = less(came.far, went.far);
 }
 
-static void
-look_at_crowd(mr_ctx *ctx, crowd *c, double diagonal, mr_harm *harm)
+static bool
+meets_marked(const crowd *c, size_t f)
 {
-	uint32_t *near_harm, *far_harm;
-	mr_tri *t = NULL;
+	mr_v3 p[3];
+	mr_box box;
 
-	if (c->now.nf > FEW) {
-		c->now.nf = c->then.nf = mr_cells_faces(ctx, &c->cells, &c->now, &t);
-		c->now.t = c->then.t = t;
+	mr_corners(&c->now, (uint32_t)f, p);
+	box = mr_box_of(p, 3);
+	return (c->turned.any && mr_cells_meet(&c->turned, box)) ||
+	       (c->gathered.any && mr_cells_meet(&c->gathered, box));
+}
+
+/* The faces with a corner in a marked cell, and wide ones that meet one. */
+static size_t
+list_faces(mr_ctx *ctx, const crowd *c, mr_tri *t)
+{
+	bool *marked = MR_NEW(ctx, c->now.nv, bool);
+	bool few = c->now.nf <= FEW;
+	size_t n = 0, wide = 0;
+
+	for (size_t v = 0; v < c->now.nv; v++)
+		marked[v] = few || mr_cells_hold(&c->turned, c->now.p[v]) ||
+		            mr_cells_hold(&c->gathered, c->now.p[v]);
+	for (size_t f = 0; f < c->now.nf; f++) {
+		const uint32_t *v = c->now.t[f].v;
+		bool is_wide = wide < c->m->wides && c->m->wide[wide] == f;
+		wide += is_wide;
+		if (marked[v[0]] || marked[v[1]] || marked[v[2]] || (is_wide && meets_marked(c, f)))
+			t[n++] = c->now.t[f];
 	}
+	return n;
+}
+
+/* The crowd becomes n faces t, and their corners, which get numbers of their own; c->vertex: what they were.
+ */
+static void
+keep_faces(mr_ctx *ctx, crowd *c, mr_tri *t, size_t n)
+{
+	uint32_t *number = MR_NEW(ctx, c->now.nv, uint32_t), nv = 0;
+	mr_v3 *then = MR_NEW(ctx, 3 * n, mr_v3), *now = MR_NEW(ctx, 3 * n, mr_v3);
+
+	c->vertex = MR_NEW(ctx, 3 * n, uint32_t);
+	memset(number, 0xff, c->now.nv * sizeof *number);
+	for (size_t i = 0; i < 3 * n; i++) {
+		uint32_t *v = &t[i / 3].v[i % 3];
+		if (number[*v] == MR_NONE) {
+			then[nv] = c->then.p[*v];
+			now[nv] = c->now.p[*v];
+			c->vertex[nv] = *v;
+			number[*v] = nv++;
+		}
+		*v = number[*v];
+	}
+	c->then = (mr_mesh){ .name = c->then.name, .nv = nv, .nf = n, .p = then, .t = t };
+	c->now = c->then;
+	c->now.p = now;
+}
+
+static void
+look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
+{
+	mr_tri *t = MR_NEW(ctx, c->now.nf, mr_tri);
+	uint32_t *near_harm, *far_harm;
+
+	keep_faces(ctx, c, t, list_faces(ctx, c, t));
+	if (getenv("CROWD"))
+		fprintf(stderr, "crowd %zu\n", c->now.nf);
 	near_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	far_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	count_folds(ctx, c, near_harm, &harm->folds);
-	count_pairs(ctx, c, diagonal, near_harm, far_harm, harm);
-	harm->vertex = worst_vertex(&c->now, near_harm);
-	harm->far_vertex = worst_vertex(&c->now, far_harm);
-}
-
-/* Cells of some vertices each. */
-static double
-cell_size(const mr_motion *m)
-{
-	const double share = 0.02, vertices = 8;
-
-	return m->diagonal * fmax(share, sqrt(vertices / (double)m->then->nv));
+	count_pairs(ctx, c, near_harm, far_harm, harm);
+	harm->vertex = worst_vertex(c, near_harm);
+	harm->far_vertex = worst_vertex(c, far_harm);
 }
 
 void
 mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 {
+	const double share = 0.02;
 	mr_mark mark = mr_mark_take(ctx);
-	crowd c = { .then = *m->then, .now = *m->then, .cells = mr_cells_new(ctx, cell_size(m)) };
+	crowd c = { .then = *m->then,
+		.now = *m->then,
+		.m = m,
+		.turned = mr_cells_new(ctx, m->cell),
+		.gathered = mr_cells_new(ctx, fmax(m->cell, share * m->diagonal)) };
 
 	*harm = (mr_harm){ .vertex = MR_NONE, .far_vertex = MR_NONE };
 	c.now.p = m->now;
 	if (!(m->diagonal > 0))
 		return;
-	c.normal_then = mr_area_normals(ctx, &c.then);
-	c.normal = mr_area_normals(ctx, &c.now);
 	mark_turned(&c);
 	mark_gathered(ctx, &c);
-	if (c.cells.any || c.now.nf <= FEW)
-		look_at_crowd(ctx, &c, m->diagonal, harm);
+	if (c.turned.any || c.gathered.any || c.now.nf <= FEW)
+		look_at_crowd(ctx, &c, harm);
 	mr_mark_release(ctx, mark);
 }

@@ -65,7 +65,7 @@ static mr_status
 judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m)
 {
 	mr_ground g = { .then.name = "base" };
-	mr_detail detail;
+	const void *face;
 	mr_mesh base;
 	bool closed;
 
@@ -73,10 +73,14 @@ judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m
 	MR_TRY(surface_of(ctx, after, "base", &base));
 	if (!base.t || !mr_layer_has(after, "mesh", "detail_face"))
 		return MR_OK;
-	MR_TRY(mr_detail_get(ctx, after, &base, &detail));
+	MR_TRY(mr_layer_get_rows(ctx, after, "mesh", "detail_face", m->then->nv, &face));
 	g.then = base;
 	g.now = base.p;
-	g.at = detail.at;
+	g.face = face;
+	for (size_t v = 0; v < m->then->nv; v++)
+		if (g.face[v] >= base.nf)
+			return mr_fail(ctx, MR_ERANGE, "mesh: detail_face %zu is %u, but base has %zu faces",
+			    v, g.face[v], base.nf);
 	MR_TRY(base_then(ctx, before, after, &g.then));
 	if (!g.then.p)
 		return MR_OK;
@@ -126,23 +130,10 @@ displaced_then(mr_ctx *ctx, mr_frame *f, size_t n, mr_mesh *control, mr_domain *
 	return MR_OK;
 }
 
-/* The diagonal of some faces, nearly that of all. */
-static double
-diagonal_of(const mr_mesh *m)
-{
-	enum { LOOKS = 1 << 14 };
-	mr_box box = mr_box_empty();
-
-	for (size_t f = 0; f < m->nf; f += 1 + m->nf / LOOKS)
-		for (int k = 0; k < 3; k++)
-			mr_box_add(&box, m->p[m->t[f].v[k]]);
-	return mr_box_diagonal(box);
-}
-
 static void
 judge_motion(mr_ctx *ctx, const mr_mesh *then, const mr_v3 *now, mr_motion *m)
 {
-	*m = (mr_motion){ then, now, diagonal_of(then) };
+	*m = mr_motion_of(ctx, then, now);
 	mr_judge_harm(ctx, m);
 }
 

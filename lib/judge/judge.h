@@ -9,18 +9,37 @@
 
 #include "mesh/layers.h"
 
-/* A surface whose vertices have moved. */
+typedef float mr_float4 __attribute__((vector_size(16)));
+
+/* The faces around a vertex: the sums of their unit normals, then and now, and behind each how many there
+ * are. */
+typedef struct mr_ring {
+	mr_float4 then, now;
+} mr_ring;
+
+/* A surface whose vertices have moved, and what one look at each face tells of it. */
 typedef struct mr_motion {
 	const mr_mesh *then;
 	const mr_v3 *now; /* then->nv */
 	double diagonal;  /* of then, nearly */
+	mr_ring *ring;    /* of the vertices */
+	double longest;   /* edge, then */
+	uint32_t
+	    *changed; /* half-edges, each edge once, that are over twice or under half as long as they were */
+	size_t changes;
+	double cell;    /* the side of small cells, of a few vertices each */
+	uint32_t *wide; /* faces that are wider than that, ascending */
+	size_t wides;
 } mr_motion;
+
+/* A motion of the same triangles.  In the arena. */
+mr_motion mr_motion_of(mr_ctx *ctx, const mr_mesh *then, const mr_v3 *now);
 
 /* What a surface stands on: base, or a control mesh. */
 typedef struct mr_ground {
 	mr_mesh then;
 	const mr_v3 *now;
-	mr_places at;                            /* of the surface's vertices on it */
+	const uint32_t *face;                    /* that the surface's vertices are on */
 	const uint32_t *region, *surface_region; /* of its vertices, of the surface's; NULL: none */
 } mr_ground;
 

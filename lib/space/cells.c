@@ -10,13 +10,12 @@ mr_cells_new(mr_ctx *ctx, double size)
 }
 
 static int
-cell_along(const mr_cells *c, double x)
+cell_along(double x)
 {
 	const double most = 1e9, off = 0.37; /* walls at 0 are in one cell */
-
 	int cell;
 
-	x = x / c->size + off;
+	x += off;
 	cell = (int)(x < -most ? -most : x < most ? x : most);
 	return cell - (cell > x);
 }
@@ -24,7 +23,9 @@ cell_along(const mr_cells *c, double x)
 mr_cell
 mr_cell_of(const mr_cells *c, mr_v3 p)
 {
-	return (mr_cell){ { cell_along(c, p.x), cell_along(c, p.y), cell_along(c, p.z) } };
+	double scale = 1 / c->size;
+
+	return (mr_cell){ { cell_along(scale * p.x), cell_along(scale * p.y), cell_along(scale * p.z) } };
 }
 
 uint32_t
@@ -54,23 +55,16 @@ is_marked(const mr_cells *c, mr_cell at)
 	return c->bits[h / 32] >> h % 32 & 1;
 }
 
-/* Where a vertex is. */
-typedef struct place {
-	mr_cell at;
-	bool marked;
-} place;
-
-static bool
-same(const mr_cell *a, const mr_cell *b)
+bool
+mr_cells_hold(const mr_cells *c, mr_v3 p)
 {
-	return a->at[0] == b->at[0] && a->at[1] == b->at[1] && a->at[2] == b->at[2];
+	return c->any && is_marked(c, mr_cell_of(c, p));
 }
 
-/* Whether a box of cells has a marked one, or is of too many. */
-static bool
-any_marked(const mr_cells *c, mr_cell low, mr_cell high)
+bool
+mr_cells_meet(const mr_cells *c, mr_box box)
 {
-	mr_cell at;
+	mr_cell low = mr_cell_of(c, box.min), high = mr_cell_of(c, box.max), at;
 
 	for (int k = 0; k < 3; k++)
 		if (high.at[k] - low.at[k] >= ACROSS)
@@ -81,39 +75,4 @@ any_marked(const mr_cells *c, mr_cell low, mr_cell high)
 				if (is_marked(c, at))
 					return true;
 	return false;
-}
-
-static bool
-meets_marked(const mr_cells *c, const place *vertex, const uint32_t v[3])
-{
-	const place *p = &vertex[v[0]];
-	mr_cell low = p->at, high = p->at;
-
-	if (same(&p->at, &vertex[v[1]].at) && same(&p->at, &vertex[v[2]].at))
-		return p->marked;
-	for (int i = 1; i < 3; i++)
-		for (int k = 0; k < 3; k++) {
-			int at = vertex[v[i]].at.at[k];
-			low.at[k] = at < low.at[k] ? at : low.at[k];
-			high.at[k] = at > high.at[k] ? at : high.at[k];
-		}
-	return any_marked(c, low, high);
-}
-
-size_t
-mr_cells_faces(mr_ctx *ctx, const mr_cells *c, const mr_mesh *m, mr_tri **faces)
-{
-	place *vertex = MR_NEW(ctx, m->nv, place);
-	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
-	size_t n = 0;
-
-	for (size_t v = 0; v < m->nv; v++) {
-		vertex[v].at = mr_cell_of(c, m->p[v]);
-		vertex[v].marked = is_marked(c, vertex[v].at);
-	}
-	for (size_t f = 0; f < m->nf; f++)
-		if (meets_marked(c, vertex, m->t[f].v))
-			t[n++] = m->t[f];
-	*faces = t;
-	return n;
 }

@@ -1,5 +1,5 @@
 /*
- * cells.h -- a set of cubic cells of space, some of them marked, and the faces of a mesh in those.
+ * cells.h -- a set of cubic cells of space, some of them marked.
  */
 #ifndef MR_SPACE_CELLS_H
 #define MR_SPACE_CELLS_H
@@ -25,8 +25,10 @@ uint32_t mr_cell_hash(mr_cell c);
 
 void mr_cells_mark(mr_cells *c, mr_v3 p);
 
-/* The faces of m whose boxes meet marked cells, and all that are larger than some cells; in the arena.
- * Returns how many. */
-size_t mr_cells_faces(mr_ctx *ctx, const mr_cells *c, const mr_mesh *m, mr_tri **faces);
+/* Whether p is in a marked cell. */
+bool mr_cells_hold(const mr_cells *c, mr_v3 p);
+
+/* Whether a box meets a marked cell, or more than some cells. */
+bool mr_cells_meet(const mr_cells *c, mr_box box);
 
 #endif

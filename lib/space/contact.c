@@ -59,19 +59,33 @@ typedef struct slits {
 	bool any, closed;
 } slits;
 
+/* The mean area of some faces. */
+static double
+some_area(const mr_mesh *m)
+{
+	enum { LOOKS = 1 << 12 };
+	size_t stride = 1 + m->nf / LOOKS, n = 0;
+	double sum = 0;
+
+	for (size_t f = 0; f < m->nf; f += stride, n++)
+		sum += mr_norm(mr_face_cross(m, f)) / 2;
+	return sum / (double)n;
+}
+
 /*
- * What is as near as this is at one place: sides of a seam are apart by what their coordinates were rounded
- * to, which of single precision is 1e-7 of the diagonal.  Where an edge is a hundred times as long as that no
- * more, it is the edges that bound it, and not the diagonal, which of a model with a stray part says nothing.
+ * What is as near as this is at one place, of n at the boundary: sides of a seam are apart by what their
+ * coordinates were rounded to, which of single precision is 1e-7 of the diagonal.  Where an edge is a hundred
+ * times as long as that no more, it is the edges that bound it, and not the diagonal, which of a model with a
+ * stray part says nothing.
  */
 static double
-same_place(const mr_ctx *ctx, const mr_mesh *m)
+same_place(const mr_mesh *m, const mr_v3 *p, size_t n)
 {
 	const double rounding = 1e-6, edge = 0.01, least = 1e-12;
-	mr_box box = mr_mesh_box(m);
+	mr_box box = mr_box_of(p, n);
 
 	return fmax(mr_box_tolerance(box, least),
-	    fmin(rounding * mr_box_diagonal(box), edge * mr_mesh_edge_scale(ctx, m)));
+	    fmin(rounding * mr_box_diagonal(box), edge * sqrt(2 * some_area(m))));
 }
 
 /* The vertices of the boundary. */
@@ -105,7 +119,7 @@ find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 		return;
 	list = list_boundary(ctx, m, boundary, p, &n);
 	place = MR_NEW(ctx, n, uint32_t);
-	mr_weld(ctx, p, n, same_place(ctx, m), place, &places);
+	mr_weld(ctx, p, n, same_place(m, p, n), place, &places);
 	head = MR_NEW(
 	    ctx, places, uint32_t); /* the first of each component at a place, and `other`, the next */
 	other = MR_NEW(ctx, m->nv, uint32_t);

@@ -5,7 +5,7 @@
 static mr_harm
 harm_of(const mr_mesh *m, const mr_v3 *after)
 {
-	mr_motion motion = { m, after, mr_mesh_diagonal(m) };
+	mr_motion motion = mr_motion_of(&ctx, m, after);
 	mr_harm harm;
 
 	mr_harm_find(&ctx, &motion, &harm);
