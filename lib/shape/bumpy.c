@@ -211,7 +211,7 @@ polygonise(mr_ctx *ctx, double vertices, mr_mesh *m)
 		s.g.n[k] = (size_t)ceil(mr_coordinate(size, k) / s.g.step) + 1;
 	s.f = MR_NEW(ctx, mr_grid_nodes(&s.g), float);
 	mr_parallel(ctx, s.g.n[2], 1, sample_layers, &s);
-	return mr_isosurface(ctx, &s.g, s.f, m);
+	return mr_isosurface(ctx, &s.g, s.f, 0, m);
 }
 
 mr_status

@@ -7,6 +7,8 @@
  */
 #include "volume/isosurface.h"
 
+#include "base/parallel.h"
+
 /* Corner c stands at x = c & 1, y = c >> 1 & 1, z = c >> 2.  Edge 4 a + k runs along axis a. */
 enum { EDGES = 12, TRIANGLES = 5 };
 
@@ -124,62 +126,81 @@ make_kind(unsigned inside, kind *k)
 	}
 }
 
-/* Vertices on the edges that leave the nodes of two layers, [axis][layer][node]. */
+/* Which nodes are inside, as bits, x in rows of whole words, and the vertices on the edges that leave the
+ * nodes of two layers, [axis][layer][node]. */
 typedef struct march {
 	const mr_grid *g;
 	const float *f;
+	float level;
 	const kind *kinds;
+	size_t words; /* of a row */
+	uint64_t *inside;
 	uint32_t *vertex[3][2];
 	mr_v3 *p;
 	mr_tri *t;
-	size_t nv, nf;
+	size_t nv, nf, room_v, room_f;
 } march;
 
-/* The inside ones of the four corners at the low x end of the cube at the node, as bits. */
-static inline unsigned
-inside_end(const mr_grid *g, const float *f, size_t node)
+static uint64_t *
+row_of(const march *m, size_t y, size_t z)
 {
-	size_t up = g->n[0], far = g->n[0] * g->n[1];
-	const float *q = f + node;
-
-	return (unsigned)(q[0] < 0) | (unsigned)(q[up] < 0) << 2 | (unsigned)(q[far] < 0) << 4 |
-	       (unsigned)(q[far + up] < 0) << 6;
+	return m->inside + (z * m->g->n[1] + y) * m->words;
 }
 
-/* Those of the whole cube that is next along x, of which the low end has been looked at. */
-static inline unsigned
-inside_next(const mr_grid *g, const float *f, size_t node, unsigned *low)
-{
-	unsigned high = inside_end(g, f, node + 1), all = *low | high << 1;
-
-	*low = high;
-	return all;
-}
-
-/* The vertices on the edges that leave the nodes of layer z towards greater coordinates. */
 static void
-add_layer(march *m, size_t z)
+mark_layers(void *arg, size_t begin, size_t end)
 {
-	const mr_grid *g = m->g;
-	const size_t stride[3] = { 1, g->n[0], g->n[0] * g->n[1] };
+	const march *m = arg;
 
-	for (size_t y = 0; y < g->n[1]; y++)
-		for (size_t x = 0; x < g->n[0]; x++) {
-			size_t at[3] = { x, y, z }, node = mr_grid_index(g, x, y, z), flat = y * g->n[0] + x;
-			float a = m->f[node];
-			for (size_t axis = 0; axis < 3; axis++) {
-				float b;
-				if (at[axis] + 1 == g->n[axis])
-					continue;
-				b = m->f[node + stride[axis]];
-				if ((a < 0) == (b < 0))
-					continue;
-				mr_v3 p = mr_grid_place(g, x, y, z);
-				(&p.x)[axis] += g->step * ((double)a / ((double)a - (double)b));
-				m->p[m->nv] = p;
-				m->vertex[axis][z & 1][flat] = (uint32_t)m->nv++;
+	for (size_t z = begin; z < end; z++)
+		for (size_t y = 0; y < m->g->n[1]; y++) {
+			const float *f = m->f + mr_grid_index(m->g, 0, y, z);
+			uint64_t *row = row_of(m, y, z);
+			memset(row, 0, m->words * sizeof *row);
+			for (size_t x = 0; x < m->g->n[0]; x++)
+				row[x / 64] |= (uint64_t)(f[x] < m->level) << x % 64;
+		}
+}
+
+/* The nodes after those of word w of a row. */
+static uint64_t
+next_of(const uint64_t *row, size_t w, size_t words)
+{
+	return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
+}
+
+static void
+add_vertex(mr_ctx *ctx, march *m, size_t x, size_t y, size_t z, size_t axis)
+{
+	const size_t stride[3] = { 1, m->g->n[0], m->g->n[0] * m->g->n[1] };
+	const float *f = m->f + mr_grid_index(m->g, x, y, z);
+	double a = (double)f[0] - (double)m->level, b = (double)f[stride[axis]] - (double)m->level;
+	mr_v3 p = mr_grid_place(m->g, x, y, z);
+
+	(&p.x)[axis] += m->g->step * (a / (a - b));
+	m->vertex[axis][z & 1][y * m->g->n[0] + x] = (uint32_t)m->nv;
+	MR_RESERVE(ctx, m->p, m->nv, 1, &m->room_v);
+	m->p[m->nv++] = p;
+}
+
+/* The vertices on the edges that leave the nodes of layer z towards greater coordinates: there are none on
+ * the grid's far faces, where all is outside. */
+static void
+add_layer(mr_ctx *ctx, march *m, size_t z)
+{
+	for (size_t y = 0; y + 1 < m->g->n[1]; y++) {
+		const uint64_t *row = row_of(m, y, z), *up = row_of(m, y + 1, z), *far = row_of(m, y, z + 1);
+		for (size_t w = 0; w < m->words; w++) {
+			const uint64_t crossed[3] = { row[w] ^ next_of(row, w, m->words), row[w] ^ up[w],
+				row[w] ^ far[w] };
+			for (uint64_t left = crossed[0] | crossed[1] | crossed[2]; left; left &= left - 1) {
+				size_t bit = (size_t)__builtin_ctzll(left);
+				for (size_t axis = 0; axis < 3; axis++)
+					if (crossed[axis] >> bit & 1)
+						add_vertex(ctx, m, 64 * w + bit, y, z, axis);
 			}
 		}
+	}
 }
 
 /* The vertex of an edge of the cube at x y z. */
@@ -192,8 +213,9 @@ edge_vertex(const march *m, size_t x, size_t y, size_t z, unsigned edge)
 }
 
 static void
-add_cube(march *m, const kind *k, size_t x, size_t y, size_t z)
+add_cube(mr_ctx *ctx, march *m, const kind *k, size_t x, size_t y, size_t z)
 {
+	MR_RESERVE(ctx, m->t, m->nf, TRIANGLES, &m->room_f);
 	for (unsigned i = 0; i < k->triangles; i++) {
 		mr_tri *t = &m->t[m->nf++];
 		for (int j = 0; j < 3; j++)
@@ -201,87 +223,51 @@ add_cube(march *m, const kind *k, size_t x, size_t y, size_t z)
 	}
 }
 
+/* Of the cubes between layers z and z + 1 those whose corners are not all alike. */
 static void
-add_cubes(march *m, size_t z)
+add_cubes(mr_ctx *ctx, march *m, size_t z)
 {
-	const mr_grid *g = m->g;
-
-	for (size_t y = 0; y + 1 < g->n[1]; y++) {
-		size_t row = mr_grid_index(g, 0, y, z);
-		unsigned end = inside_end(g, m->f, row);
-		for (size_t x = 0; x + 1 < g->n[0]; x++) {
-			unsigned inside = inside_next(g, m->f, row + x, &end);
-			if (inside != 0 && inside != 255)
-				add_cube(m, &m->kinds[inside], x, y, z);
-		}
-	}
-}
-
-/* Counts what add_layer and add_cubes will make: no array grows. */
-static void
-count_all(march *m)
-{
-	const mr_grid *g = m->g;
-
-	for (size_t z = 0; z + 1 < g->n[2]; z++)
-		for (size_t y = 0; y + 1 < g->n[1]; y++) {
-			size_t row = mr_grid_index(g, 0, y, z);
-			unsigned end = inside_end(g, m->f, row);
-			for (size_t x = 0; x + 1 < g->n[0]; x++) {
-				unsigned in = inside_next(g, m->f, row + x, &end), low = in & 1;
-				if (in == 0 || in == 255)
-					continue;
-				m->nf += m->kinds[in].triangles;
-				m->nv += (size_t)(low != (in >> 1 & 1)) + (low != (in >> 2 & 1)) +
-				         (low != (in >> 4 & 1));
+	for (size_t y = 0; y + 1 < m->g->n[1]; y++)
+		for (size_t w = 0; w < m->words; w++) {
+			uint64_t corner[8], any = 0, all = UINT64_MAX;
+			for (size_t c = 0; c < 8; c += 2) {
+				const uint64_t *row = row_of(m, y + c / 2 % 2, z + c / 4);
+				corner[c] = row[w];
+				corner[c + 1] = next_of(row, w, m->words);
+				any |= corner[c] | corner[c + 1];
+				all &= corner[c] & corner[c + 1];
+			}
+			for (uint64_t left = any & ~all; left; left &= left - 1) {
+				unsigned x = (unsigned)__builtin_ctzll(left), inside = 0;
+				for (unsigned c = 0; c < 8; c++)
+					inside |= (unsigned)(corner[c] >> x & 1) << c;
+				add_cube(ctx, m, &m->kinds[inside], 64 * w + x, y, z);
 			}
 		}
 }
 
-/* Nothing inside on the grid's own faces: the surface would be open there, and the counts wrong. */
-static mr_status
-check_faces(mr_ctx *ctx, const mr_grid *g, const float *f)
-{
-	for (size_t z = 0; z < g->n[2]; z++)
-		for (size_t y = 0; y < g->n[1]; y++) {
-			bool face = z == 0 || z + 1 == g->n[2] || y == 0 || y + 1 == g->n[1];
-			for (size_t x = 0; x < g->n[0]; x += face || g->n[0] == 1 ? 1 : g->n[0] - 1)
-				if (!(f[mr_grid_index(g, x, y, z)] >= 0))
-					return mr_fail(ctx, MR_ERANGE,
-					    "node %zu %zu %zu on the face of a grid of %zu x %zu x %zu is "
-					    "inside",
-					    x, y, z, g->n[0], g->n[1], g->n[2]);
-		}
-	return MR_OK;
-}
-
 mr_status
-mr_isosurface(mr_ctx *ctx, const mr_grid *g, const float *f, mr_mesh *out)
+mr_isosurface(mr_ctx *ctx, const mr_grid *g, const float *f, float level, mr_mesh *out)
 {
-	march m = { .g = g, .f = f };
+	march m = { .g = g, .f = f, .level = level, .words = (g->n[0] + 63) / 64 };
 	kind *kinds = MR_NEW(ctx, 256, kind);
-	mr_mark mark;
 
-	MR_TRY(check_faces(ctx, g, f));
 	for (unsigned inside = 0; inside < 256; inside++)
 		make_kind(inside, &kinds[inside]);
 	m.kinds = kinds;
-	count_all(&m);
-	if (m.nv >= MR_NONE || m.nf > (MR_NONE - 1) / 3)
-		return mr_fail(
-		    ctx, MR_ERANGE, "an isosurface of %zu vertices and %zu faces is too large", m.nv, m.nf);
-	m.p = MR_NEW(ctx, m.nv, mr_v3);
-	m.t = MR_NEW(ctx, m.nf, mr_tri);
-	mark = mr_mark_take(ctx);
+	m.inside = MR_NEW(ctx, m.words * g->n[1] * g->n[2], uint64_t);
 	for (int i = 0; i < 6; i++)
 		m.vertex[i / 2][i % 2] = MR_NEW(ctx, g->n[0] * g->n[1], uint32_t);
-	m.nv = m.nf = 0;
-	add_layer(&m, 0);
+	mr_parallel(ctx, g->n[2], 1, mark_layers, &m);
+	add_layer(ctx, &m, 0);
 	for (size_t z = 0; z + 1 < g->n[2]; z++) {
-		add_layer(&m, z + 1);
-		add_cubes(&m, z);
+		if (z + 2 < g->n[2])
+			add_layer(ctx, &m, z + 1);
+		add_cubes(ctx, &m, z);
+		if (m.nv >= MR_NONE || m.nf > (MR_NONE - 1) / 3)
+			return mr_fail(ctx, MR_ERANGE,
+			    "an isosurface of over %zu vertices and %zu faces is too large", m.nv, m.nf);
 	}
 	*out = (mr_mesh){ .name = "isosurface", .p = m.p, .t = m.t, .nv = m.nv, .nf = m.nf };
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -36,10 +36,10 @@ mr_grid_place(const mr_grid *g, size_t x, size_t y, size_t z)
 }
 
 /*
- * The surface of the nodes where f is below zero, in the arena: some 1.5 vertices per squared step of area.
- * f: a finite value for each node, not below zero on the faces of the grid (MR_ERANGE).  No face where no
- * node is inside.
+ * The surface of the nodes where f is below the level, in the arena: some 1.5 vertices per squared step of
+ * area. f: a finite value for each node, not below the level on the faces of the grid.  No face where no node
+ * is inside.
  */
-mr_status mr_isosurface(mr_ctx *ctx, const mr_grid *g, const float *f, mr_mesh *out);
+mr_status mr_isosurface(mr_ctx *ctx, const mr_grid *g, const float *f, float level, mr_mesh *out);
 
 #endif

@@ -3,8 +3,10 @@
  * number, else the middle of the longest run of levels that do.  What differs from one level to the next, a
  * handle or a bridge, is there by chance; what stays is of the body (persistence: Edelsbrunner, Letscher,
  * Zomorodian 2002).  Where not all are alike the topology is uncertain.
+ *
+ * Of each level's surface walls with few points for their size are left out: those of parts, and of cavities.
  */
-#include "base/parallel.h"
+#include "space/connected.h"
 #include "volume/parts.h"
 #include "volume/volume.h"
 
@@ -21,146 +23,97 @@ enum { LEVELS = MR_VOLUME_LEVELS, MIDDLE = LEVELS / 2, LASTING = 3 };
  */
 static const double RANGE = 0.4;
 
-typedef struct leveling {
-	const mr_volume_cloud *s;
-	const mr_grid *g;
-	const float *f;   /* negative inside, at the level that is wanted */
-	double rise;      /* of the indicator */
-	float offset;     /* of a level from that */
-	mr_filled at;     /* what is inside at it, cleaned */
-	int8_t part[256]; /* of each cube */
-	int64_t *sum;     /* of each layer of cubes: what it has of half the Euler number */
-} leveling;
+enum { POINTS_LEAST = 12, VERTICES_LEAST = 36, MANY = 100 };
 
-/*
- * What a cube has of half the Euler number, by which of its corners, x + 2 y + 4 z, are inside: its lowest
- * node, less the edges, plus the squares from there that have all corners inside, less itself if it has.
- * Inside nodes touch over edges, outside nodes over diagonals of squares: between two opposite corners, alone
- * outside, the ring of the others is filled.
- */
-static int
-cube_part(unsigned inside)
+/* What the points around a wall that stays have to themselves, as a share of its area. */
+static const double SHARE_LEAST = 0.3;
+
+/* Of a wall that points cover evenly: how often its vertices see a point, and how many they are in a squared
+ * step of the grid by which they see them. */
+static const double SEEN = 4.5, PER_STEP = 6;
+
+void
+mr_walls_begin(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, mr_walls *w)
 {
-	static const unsigned own[7] = { 0x03, 0x05, 0x11, 0x0f, 0x33, 0x55, 0xff };
-	static const unsigned ring[4] = { 0x7e, 0xbd, 0xdb, 0xe7 };
-	int part = inside & 1;
+	double *one = MR_NEW(ctx, s->n, double);
 
-	for (int i = 0; i < 7; i++)
-		part += (inside & own[i]) == own[i] ? (i < 3 || i == 6 ? -1 : 1) : 0;
-	for (int i = 0; i < 4; i++)
-		part += inside == ring[i];
-	return part;
+	*w = (mr_walls){ .s = s, .grid = *g };
+	w->grid.step *= 2;
+	for (int k = 0; k < 3; k++)
+		w->grid.n[k] = (g->n[k] - 1) / 2 + 1;
+	w->points = MR_NEW(ctx, mr_grid_nodes(&w->grid), float);
+	w->area = MR_NEW(ctx, mr_grid_nodes(&w->grid), float);
+	mr_volume_field(ctx, s, &w->grid, DEPTHS, &w->of);
+	for (size_t i = 0; i < s->n; i++)
+		one[i] = w->grid.step * w->grid.step / s->plane.area[i];
+	mr_volume_spread(ctx, s, &w->of, one, w->points);
+	mr_volume_spread(ctx, s, &w->of, NULL, w->area);
 }
 
-/* The nodes after those of word w of a row. */
-static uint64_t
-next_of(const uint64_t *row, size_t w, size_t words)
-{
-	return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
-}
-
-/* Cubes have parts where not all corners are alike. */
-static int64_t
-count_row(const leveling *l, size_t y, size_t z)
-{
-	int64_t sum = 0;
-	size_t words = l->at.words;
-
-	for (size_t w = 0; w < words; w++) {
-		uint64_t corner[8], any = 0, all = UINT64_MAX;
-		for (size_t c = 0; c < 8; c += 2) {
-			const uint64_t *row = l->at.bit + ((z + c / 4) * l->g->n[1] + y + c / 2 % 2) * words;
-			corner[c] = row[w];
-			corner[c + 1] = next_of(row, w, words);
-			any |= corner[c] | corner[c + 1];
-			all &= corner[c] & corner[c + 1];
-		}
-		for (uint64_t left = any & ~all; left; left &= left - 1) {
-			unsigned x = (unsigned)__builtin_ctzll(left), inside = 0;
-			for (unsigned c = 0; c < 8; c++)
-				inside |= (unsigned)(corner[c] >> x & 1) << c;
-			sum += l->part[inside];
-		}
-	}
-	return sum;
-}
+/* A component of the surface, and how many points, of how much area, its vertices see. */
+typedef struct wall {
+	double vertices, points, area;
+} wall;
 
 static void
-count_layers(void *arg, size_t begin, size_t end)
+see(const mr_walls *w, mr_v3 p, wall *of)
 {
-	const leveling *l = arg;
+	mr_v3 d = mr_mul(1 / w->grid.step, mr_sub(p, w->grid.origin));
+	size_t i = mr_grid_index(&w->grid, (size_t)(d.x + 0.5), (size_t)(d.y + 0.5), (size_t)(d.z + 0.5));
 
-	for (size_t z = begin; z < end; z++) {
-		l->sum[z] = 0;
-		for (size_t y = 0; y + 1 < l->g->n[1]; y++)
-			l->sum[z] += count_row(l, y, z);
-	}
+	of->vertices++;
+	of->points += (double)w->points[i];
+	of->area += (double)w->area[i];
 }
 
-/* The Euler number of the surface: twice that of the body. */
-static int64_t
-count_euler(mr_ctx *ctx, leveling *l)
-{
-	int64_t sum = 0;
-
-	mr_parallel(ctx, l->g->n[2] - 1, 1, count_layers, l);
-	for (size_t z = 0; z + 1 < l->g->n[2]; z++)
-		sum += l->sum[z];
-	return 2 * sum;
-}
-
-/* Where it is outside at every level. */
+/* A few points that stand for much area are as likely strewn as of a surface: they count as others do. */
 static bool
-on_face(const mr_grid *g, size_t x, size_t y, size_t z)
+is_supported(const mr_walls *w, const wall *of)
 {
-	return x == 0 || y == 0 || z == 0 || x + 1 == g->n[0] || y + 1 == g->n[1] || z + 1 == g->n[2];
+	double points = of->points / SEEN, side = w->s->spacing / w->grid.step;
+	double area = points < MANY ? points * side * side : of->area / SEEN;
+
+	return points >= POINTS_LEAST && of->vertices >= VERTICES_LEAST &&
+	       area >= SHARE_LEAST * of->vertices / PER_STEP;
 }
 
-static double
-offset_of(const leveling *l, int level)
-{
-	return RANGE * l->rise * (level - MIDDLE) / MIDDLE;
-}
-
+/* m without walls that are not supported; the one with most points stays. */
 static void
-mark_layers(void *arg, size_t begin, size_t end)
+keep_walls(mr_ctx *ctx, const mr_walls *w, mr_mesh *m)
 {
-	leveling *l = arg;
-	const mr_grid *g = l->g;
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	uint32_t *number = MR_NEW(ctx, m->nv, uint32_t);
+	size_t nv = 0, nf = 0, largest = 0;
+	mr_connected c;
+	wall *of;
 
-	for (size_t z = begin; z < end; z++)
-		for (size_t y = 0; y < g->n[1]; y++) {
-			const float *f = l->f + mr_grid_index(g, 0, y, z);
-			uint64_t *row = l->at.bit + (z * g->n[1] + y) * l->at.words;
-			memset(row, 0, l->at.words * sizeof *row);
-			for (size_t x = 1; x + 1 < g->n[0] && !on_face(g, 1, y, z); x++)
-				row[x / 64] |= (uint64_t)(f[x] < l->offset) << x % 64;
-		}
+	mr_connected_by_faces(ctx, m, &c);
+	of = MR_NEW_ZERO(ctx, c.parts, wall);
+	for (size_t v = 0; v < m->nv; v++)
+		see(w, m->p[v], &of[c.part[v]]);
+	for (size_t k = 1; k < c.parts; k++)
+		largest = of[k].area > of[largest].area ? k : largest;
+	for (size_t v = 0; v < m->nv; v++) {
+		bool stays = c.part[v] == largest || is_supported(w, &of[c.part[v]]);
+		number[v] = stays ? (uint32_t)nv : MR_NONE;
+		if (stays)
+			p[nv++] = m->p[v];
+	}
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		if (number[v[0]] != MR_NONE)
+			t[nf++] = (mr_tri){ { number[v[0]], number[v[1]], number[v[2]] } };
+	}
+	*m = (mr_mesh){ .name = m->name, .p = p, .t = t, .nv = nv, .nf = nf };
 }
 
-static mr_status
-try_level(mr_ctx *ctx, leveling *l, int level, int64_t *euler)
+mr_status
+mr_volume_surface(mr_ctx *ctx, const mr_walls *w, const mr_grid *g, const float *f, float level, mr_mesh *out)
 {
-	l->offset = (float)offset_of(l, level);
-	mr_parallel(ctx, l->g->n[2], 1, mark_layers, l);
-	MR_TRY(mr_volume_clean(ctx, l->s, &l->at));
-	*euler = count_euler(ctx, l);
+	MR_TRY(mr_isosurface(ctx, g, f, level, out));
+	keep_walls(ctx, w, out);
 	return MR_OK;
-}
-
-/* f at the level tried last, as cleaned. */
-static void
-take_level(const leveling *l, float *f)
-{
-	const mr_grid *g = l->g;
-
-	for (size_t z = 0, i = 0; z < g->n[2]; z++)
-		for (size_t y = 0; y < g->n[1]; y++)
-			for (size_t x = 0; x < g->n[0]; x++, i++) {
-				const uint64_t *row = l->at.bit + (z * g->n[1] + y) * l->at.words;
-				f[i] -= on_face(g, x, y, z) ? 0 : l->offset;
-				f[i] = row[x / 64] >> x % 64 & 1 ? -fabsf(f[i]) : fabsf(f[i]);
-			}
 }
 
 typedef struct run {
@@ -214,34 +167,31 @@ beside(run r)
 	return below ? r.first - 1 : r.last + 1;
 }
 
-static void
-begin(mr_ctx *ctx, leveling *l)
+static float
+level_of(double rise, int i)
 {
-	for (unsigned inside = 0; inside < 256; inside++)
-		l->part[inside] = (int8_t)cube_part(inside);
-	l->sum = MR_NEW(ctx, l->g->n[2] - 1, int64_t);
-	mr_filled_new(ctx, l->g, &l->at);
+	return (float)(RANGE * rise * (i - MIDDLE) / MIDDLE);
 }
 
 mr_status
-mr_volume_level(
-    mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f, mr_volume_result *result)
+mr_volume_level(mr_ctx *ctx, const mr_walls *w, const mr_grid *g, const float *f, double rise, float *level,
+    mr_volume_result *result)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	leveling l = { .s = s, .g = g, .f = f, .rise = rise };
 	int64_t euler[LEVELS];
 	run r;
 
-	begin(ctx, &l);
-	for (int i = 0; i < LEVELS; i++)
-		MR_TRY(try_level(ctx, &l, i, &euler[i]));
+	for (int i = 0; i < LEVELS; i++) {
+		mr_mark mark = mr_mark_take(ctx);
+		mr_mesh m;
+		MR_TRY(mr_volume_surface(ctx, w, g, f, level_of(rise, i), &m));
+		euler[i] = (int64_t)m.nv - (int64_t)(m.nf / 2);
+		mr_mark_release(ctx, mark);
+	}
 	r = lasting_run(euler);
 	result->levels_alike = (size_t)(r.last - r.first) + 1;
 	result->euler = (double)euler[r.first];
 	if (result->levels_alike < LEVELS)
 		result->euler_beside = (double)euler[beside(r)];
-	MR_TRY(try_level(ctx, &l, nearest_of(r), &euler[r.first]));
-	take_level(&l, f);
-	mr_mark_release(ctx, mark);
+	*level = level_of(rise, nearest_of(r));
 	return MR_OK;
 }

@@ -131,32 +131,28 @@ void mr_volume_spread(
 /* The value between the nodes at p, which must be inside the grid. */
 double mr_volume_at(const mr_grid *g, const float *u, mr_v3 p);
 
-/* ---- components.c ---- */
-
-/* Which nodes of a grid are inside: bits, x in rows of whole words; none on the faces of the grid. */
-typedef struct mr_filled {
-	const mr_grid *g;
-	size_t words; /* of a row */
-	uint64_t *bit;
-} mr_filled;
-
-/* All outside. */
-void mr_filled_new(mr_ctx *ctx, const mr_grid *g, mr_filled *in);
-
-/*
- * Turns parts of the inside, and cavities, whose walls have few points for their size; the largest part
- * stays.
- */
-mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in);
-
 /* ---- level.c ---- */
 
+/* How many points there are around the nodes of a grid of twice the step, and their area in its squared
+ * steps. */
+typedef struct mr_walls {
+	const mr_volume_cloud *s;
+	mr_grid grid;
+	mr_grid_points of;
+	float *points, *area;
+} mr_walls;
+
+void mr_walls_begin(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, mr_walls *w);
+
+/* The isosurface without walls that have few points for their size. */
+mr_status mr_volume_surface(
+    mr_ctx *ctx, const mr_walls *w, const mr_grid *g, const float *f, float level, mr_mesh *out);
+
 /*
- * Moves f, negative inside, to the level whose topology lasts, and cleans it.  rise: of the indicator across
- * the surface, the unit of f.  Fills the result's euler, levels_alike and, where these are not all,
- * euler_beside.
+ * The level of f, negative inside, nearest to 0 whose topology lasts.  rise: of the indicator across the
+ * surface, the unit of f.  Fills the result's euler, levels_alike and, where these are not all, euler_beside.
  */
-mr_status mr_volume_level(
-    mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f, mr_volume_result *result);
+mr_status mr_volume_level(mr_ctx *ctx, const mr_walls *w, const mr_grid *g, const float *f, double rise,
+    float *level, mr_volume_result *result);
 
 #endif

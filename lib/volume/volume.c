@@ -428,24 +428,16 @@ measure_level(void *arg, size_t begin, size_t end)
 
 /* Level 1's u = mean of the values of the points nearby; `far` where there are none. */
 static void
-spread_values(mr_ctx *ctx, volume *v, mr_grid_multigrid *m, double far)
+spread_values(mr_ctx *ctx, const volume *v, const mr_walls *w, mr_grid_multigrid *m, double far)
 {
 	static const float LITTLE = 0.05f; /* 0.01: 127 right; 0.2: 130, at distances 2 % longer */
 	size_t depths = m->levels < 1 + NEARBY ? m->levels : 1 + NEARBY;
 	mr_mark mark = mr_mark_take(ctx);
-	mr_grid g = v->grid[0];
-	float *weight[1 + NEARBY] = { NULL };
-	mr_grid_points f;
+	float *weight[1 + NEARBY] = { NULL, w->area };
 
-	for (size_t i = 1; i < depths; i++) {
+	for (size_t i = 2; i < depths; i++)
 		weight[i] = MR_NEW_ZERO(ctx, m->level[i].n[0] * m->level[i].n[1] * m->level[i].n[2], float);
-	}
-	g.step *= 2;
-	memcpy(g.n, m->level[1].n, sizeof g.n);
-	mr_volume_field(ctx, &v->s, &g, DEPTHS, &f);
-	mr_volume_spread(ctx, &v->s, &f, v->value, m->level[1].b);
-	/* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) there are two levels at least */
-	mr_volume_spread(ctx, &v->s, &f, NULL, weight[1]);
+	mr_volume_spread(ctx, &v->s, &w->of, v->value, m->level[1].b);
 	for (size_t i = 1; i + 1 < depths; i++) {
 		mr_grid_level *l = &m->level[i], *c = l + 1;
 		mr_multigrid_restrict(ctx, l, c, l->b, c->b, 1);
@@ -466,7 +458,7 @@ spread_values(mr_ctx *ctx, volume *v, mr_grid_multigrid *m, double far)
 
 /* f = value wanted nearby - indicator, in place of the indicator: positive on the faces of the grid. */
 static mr_status
-make_level(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
+make_level(mr_ctx *ctx, volume *v, const mr_walls *w, mr_grid_multigrid *m)
 {
 	mr_grid_level *l = &m->level[0];
 	double half;
@@ -481,7 +473,7 @@ make_level(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 	v->found.level = half;
 	for (size_t i = 0; i < v->s.n; i++)
 		v->value[i] = fmax(LEVEL_LEAST * half, fmin(v->value[i], LEVEL_MOST * half));
-	spread_values(ctx, v, m, half);
+	spread_values(ctx, v, w, m, half);
 	for (size_t i = 0; i < nodes; i++)
 		c[i] = (float)half;
 	mr_multigrid_prolong(ctx, l, &m->level[1], m->level[1].u, c, 0, 1);
@@ -518,17 +510,17 @@ begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
 	return MR_OK;
 }
 
-/* f, of the grid's nodes: negative inside. */
+/* f, of the grid's nodes: below the level inside. */
 static mr_status
-fill_field(mr_ctx *ctx, volume *v, float *f)
+fill_field(mr_ctx *ctx, volume *v, const mr_walls *w, float *f, float *level)
 {
 	mr_grid_multigrid m;
 
 	MR_TRY(v->side.toward ? orient_by_sides(ctx, v) : orient_by_flood(ctx, v, f));
 	mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m);
 	solve_indicator(ctx, v, &m);
-	MR_TRY(make_level(ctx, v, &m));
-	return mr_volume_level(ctx, &v->s, &v->grid[0], v->found.level, f, &v->found);
+	MR_TRY(make_level(ctx, v, w, &m));
+	return mr_volume_level(ctx, w, &v->grid[0], f, v->found.level, level, &v->found);
 }
 
 static void
@@ -606,19 +598,8 @@ mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 	return MR_OK;
 }
 
-/* Share of the nodes that are inside. */
-static double
-inside_share(const float *f, size_t nodes)
-{
-	size_t inside = 0;
-
-	for (size_t i = 0; i < nodes; i++)
-		inside += f[i] < 0;
-	return (double)inside / (double)nodes;
-}
-
 static mr_volume_result
-report(const volume *v, const float *f)
+report(mr_ctx *ctx, const volume *v, const mr_mesh *m)
 {
 	mr_volume_result r = v->found;
 
@@ -628,7 +609,7 @@ report(const volume *v, const float *f)
 	r.cell = v->grid[0].step;
 	r.grid = cells_along(v->s.box, r.cell);
 	r.nodes = mr_grid_nodes(&v->grid[0]);
-	r.inside = inside_share(f, r.nodes);
+	r.inside = mr_mesh_volume(ctx, m) / ((double)r.nodes * r.cell * r.cell * r.cell);
 	return r;
 }
 
@@ -693,7 +674,8 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	volume v;
 	mr_mark mark;
 	mr_mesh m;
-	float *f;
+	mr_walls w;
+	float *f, level;
 
 	if (opts->grid > CELLS_MOST)
 		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
@@ -701,17 +683,18 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	v.side.toward = NULL;
 	MR_TRY(take_points(ctx, point, n, opts, &places, &v));
 	MR_TRY(begin(ctx, opts, places, &v));
+	mr_walls_begin(ctx, &v.s, &v.grid[0], &w);
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
 	mark = mr_mark_take(ctx);
-	MR_TRY(fill_field(ctx, &v, f));
+	MR_TRY(fill_field(ctx, &v, &w, f, &level));
 	mr_mark_release(ctx, mark);
-	MR_TRY(mr_isosurface(ctx, &v.grid[0], f, &m));
+	MR_TRY(mr_volume_surface(ctx, &w, &v.grid[0], f, level, &m));
 	if (m.nf == 0)
 		return mr_fail(ctx, MR_EMESH, "%zu points enclose nothing at a grid of %zu x %zu x %zu nodes",
 		    v.s.n, v.grid[0].n[0], v.grid[0].n[1], v.grid[0].n[2]);
 	m.name = "volume";
 	*out = m;
 	if (result)
-		*result = report(&v, f);
+		*result = report(ctx, &v, &m);
 	return MR_OK;
 }

@@ -16,7 +16,7 @@ surface_of(double (*value)(mr_v3 p), size_t cells)
 		for (size_t y = 0; y < g.n[1]; y++)
 			for (size_t x = 0; x < g.n[0]; x++)
 				f[mr_grid_index(&g, x, y, z)] = (float)value(mr_grid_place(&g, x, y, z));
-	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
+	assert_int_equal(mr_isosurface(&ctx, &g, f, 0, &m), MR_OK);
 	return m;
 }
 
@@ -165,13 +165,13 @@ any_grid_will_do(void **state)
 			for (size_t x = 0; x < g.n[0]; x++)
 				f[mr_grid_index(&g, x, y, z)] =
 				    (float)(mr_dist(mr_grid_place(&g, x, y, z), centre) - 1.4);
-	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
+	assert_int_equal(mr_isosurface(&ctx, &g, f, 0, &m), MR_OK);
 	assert_int_equal(closed_census_of(&m).euler, 2);
 	for (size_t v = 0; v < m.nv; v++)
 		assert_true(fabs(mr_dist(m.p[v], centre) - 1.4) < 0.05);
 	for (size_t i = 0; i < mr_grid_nodes(&g); i++)
 		f[i] = 1;
-	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
+	assert_int_equal(mr_isosurface(&ctx, &g, f, 0, &m), MR_OK);
 	assert_int_equal(m.nf, 0);
 }
 

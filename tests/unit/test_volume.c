@@ -92,7 +92,7 @@ isosurface_is_always_closed(void **state)
 					double u = mr_random_real(&r);
 					f[i] = (float)(face ? u : u - 0.1 * share);
 				}
-		assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
+		assert_int_equal(mr_isosurface(&ctx, &g, f, 0, &m), MR_OK);
 		c = census_of(&m);
 		assert_closed_manifold(&c);
 		assert_true(volume_of(&m) > 0);
@@ -114,16 +114,63 @@ isosurface_of_a_sphere(void **state)
 		for (size_t y = 0; y < N; y++)
 			for (size_t x = 0; x < N; x++, i++)
 				f[i] = (float)(mr_norm(mr_grid_place(&g, x, y, z)) - 0.8);
-	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
+	assert_int_equal(mr_isosurface(&ctx, &g, f, 0, &m), MR_OK);
 	c = census_of(&m);
 	assert_closed_manifold(&c);
 	assert_int_equal(c.euler, 2);
 	assert_true(fabs(volume_of(&m) - (4 * MR_PI / 3 * 0.512)) < 0.01);
 	for (size_t i = 0; i < m.nv; i++)
 		assert_true(fabs(mr_norm(m.p[i]) - 0.8) < 1e-3);
-	f[0] = -1;
-	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_ERANGE);
-	assert_string_equal(ctx.error, "node 0 0 0 on the face of a grid of 41 x 41 x 41 is inside");
+}
+
+/* Of random insides without any points one wall stays; of two balls the one that has points, and its cavity goes. */
+static void
+walls_without_points_go(void **state)
+{
+	enum { N = 40, POINTS = 4000 };
+	static float f[N * N * N];
+	mr_grid g = { { -2, -2, -2 }, 0.1, { N, N, N } };
+	mr_v3 here = mr_vec(-0.9, 0, 0), there = mr_vec(0.9, 0, 0), *normal;
+	mr_volume_cloud s = { .n = 0, .spacing = 1 };
+	mr_mesh m, ball = solid(MR_SPHERE, 2000, 0);
+	mr_random r = { 1 };
+	mr_walls w;
+	mr_census c;
+
+	(void)state;
+	mr_walls_begin(&ctx, &s, &g, &w);
+	for (int share = 1; share < 10; share += 2) {
+		for (size_t i = 0; i < (size_t)N * N * N; i++) {
+			size_t x = i % N, y = i / N % N, z = i / (N * N);
+			bool face = x % (N - 1) == 0 || y % (N - 1) == 0 || z % (N - 1) == 0;
+			f[i] = (float)(mr_random_real(&r) - (face ? 0 : 0.1 * share));
+		}
+		assert_int_equal(mr_volume_surface(&ctx, &w, &g, f, 0, &m), MR_OK);
+		c = census_of(&m);
+		assert_closed_manifold(&c);
+		assert_int_equal(c.components, 1);
+	}
+	assert_int_equal(mr_surface_sample(&ctx, &ball, POINTS, 1, &s.p, &normal), MR_OK);
+	s.n = POINTS;
+	s.plane.area = MR_NEW(&ctx, POINTS, double);
+	s.depth = MR_NEW_ZERO(&ctx, POINTS, uint8_t);
+	for (size_t i = 0; i < POINTS; i++) {
+		s.p[i] = mr_axpy(0.8, s.p[i], here);
+		s.plane.area[i] = 4 * MR_PI * 0.64 / POINTS;
+	}
+	s.spacing = sqrt(s.plane.area[0]);
+	mr_walls_begin(&ctx, &s, &g, &w);
+	for (size_t i = 0; i < (size_t)N * N * N; i++) {
+		mr_v3 p = mr_grid_place(&g, i % N, i / N % N, i / (N * N));
+		double d = fmin(mr_dist(p, here), mr_dist(p, there)) - 0.8;
+		f[i] = (float)fmax(d, 0.25 - mr_dist(p, here));
+	}
+	assert_int_equal(mr_volume_surface(&ctx, &w, &g, f, 0, &m), MR_OK);
+	c = census_of(&m);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.components, 1);
+	for (size_t i = 0; i < m.nv; i++)
+		assert_true(fabs(mr_dist(m.p[i], here) - 0.8) < 0.01);
 }
 
 static void
@@ -473,6 +520,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(isosurface_is_always_closed, setup, teardown),
 		cmocka_unit_test_setup_teardown(isosurface_of_a_sphere, setup, teardown),
+		cmocka_unit_test_setup_teardown(walls_without_points_go, setup, teardown),
 		cmocka_unit_test_setup_teardown(eigenvectors_of_a_symmetric_matrix, setup, teardown),
 		cmocka_unit_test_setup_teardown(planes_of_a_sphere, setup, teardown),
 		cmocka_unit_test_setup_teardown(genus_and_volume_are_right, setup, teardown),
