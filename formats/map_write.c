@@ -278,33 +278,14 @@ check_place(mr_ctx *ctx, const char *name, const char *path)
 	           : mr_fail(ctx, MR_EUSAGE, "%s is of no map, and would be lost: give another name", path);
 }
 
-/* Whether the layer's material is of maps, as put_material has it. */
-static mr_status
-is_mapped(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
-{
-	const void *name, *file;
-	size_t n, bytes;
-
-	*is = mr_layer_has(f, layer, "materials") && mr_layer_has(f, layer, "mtllib");
-	if (!*is)
-		return MR_OK;
-	MR_TRY(mr_layer_get(ctx, f, layer, "materials", &name, &n));
-	MR_TRY(mr_layer_get(ctx, f, layer, "mtllib", &file, &bytes));
-	*is = bytes == n + 4 && !memcmp(file, name, n) && !memcmp((const char *)file + n, ".mtl", 4);
-	return MR_OK;
-}
-
-/* What control has that is not of earlier maps. */
-static mr_status
+/* What control has had, be it of an earlier map. */
+static void
 lose_replaced(mr_ctx *ctx, mr_frame *f)
 {
 	static const char *const columns[] = { "texcoord", "corner_texcoord", "material" };
-	bool mapped;
 
-	MR_TRY(is_mapped(ctx, f, "control", &mapped));
-	for (size_t i = 0; i < sizeof columns / sizeof *columns && !mapped; i++)
+	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
 		mr_lost(ctx, "control", mr_layer_has(f, "control", columns[i]), columns[i]);
-	return MR_OK;
 }
 
 static mr_status
@@ -410,7 +391,7 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
 		mr_lost(ctx, "base", 1, "the pose");
 	MR_TRY(write_files(ctx, &m, name, r));
-	MR_TRY(lose_replaced(ctx, f));
+	lose_replaced(ctx, f);
 	MR_TRY(put_texcoords(ctx, f, &m.atlas));
 	MR_TRY(put_normals(ctx, f, &m));
 	MR_TRY(put_material(ctx, f, &m.atlas, name_of(name)));

@@ -34,7 +34,7 @@ static const char *const texts[] = { "groups", "objects", "materials", NULL };
 typedef struct displaced {
 	bool there;
 	bool is_mesh; /* mesh is this surface, and need not be stored */
-	size_t n; /* finest level */
+	size_t n;     /* finest level */
 	const mr_loop *level;
 	const double *height;
 	double extent; /* of the control mesh: the largest side of its box */
@@ -249,7 +249,8 @@ clamp_places(mr_ctx *ctx, mr_frame *f, mr_column *c, whole_steps *steps)
 	return MR_OK;
 }
 
-/* Within 24 bits of the largest, or of `least`; of barycentric coordinates the third is what the two leave of 1. */
+/* Within 24 bits of the largest, or of `least`; of barycentric coordinates the third is what the two leave
+ * of 1. */
 static whole_steps
 steps_of_column(const mr_column *c, double least)
 {
@@ -505,7 +506,8 @@ wear_pictures(mr_ctx *ctx, mr_frame *f, mr_page_pictures *pictures, bool *shown,
 	return MR_OK;
 }
 
-/* How columns are stored, and which file (without folder and suffix) they are from, are told in a text of no layer, `page`. */
+/* How columns are stored, and which file (without folder and suffix) they are from, are told in a text of no
+ * layer, `page`. */
 static mr_status
 take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const displaced *d, mr_frame *to,
     mr_page_result *r)

@@ -160,7 +160,6 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 		return mr_fail(ctx, MR_EMESH,
 		    "%s: its %zu vertices lie at one place: there is no surface to fit", control->name,
 		    control->nv);
-	MR_TRY(mr_cloud_check_spread(ctx, point, n));
 	if (!(mr_box_diagonal(mr_box_of(point, n)) > 0))
 		return mr_fail(
 		    ctx, MR_EMESH, "%s: the %zu points to fit it to lie at one place", control->name, n);

@@ -90,7 +90,7 @@ static const sums SUMS_NONE = { INFINITY, 0, 0, 0, 0, 0 };
 typedef struct job {
 	const mr_mesh *a, *b;
 	const mr_bvh *bvh; /* of b */
-	const bool *used;  /* vertices of a that count; NULL: all */
+	bool *used;        /* vertices of a that count; NULL: all */
 	bool alike;        /* the faces of a and b have the same corners by number */
 	double piece_area; /* faces are cut into pieces of at most this */
 	sums *sums;        /* per grain of vertices or faces */
@@ -334,17 +334,6 @@ distance_of(const sums *s)
 	    mr_distance){ s->min, s->max, s->max, s->sum / s->weight, sqrt(s->square / s->weight), s->count };
 }
 
-static bool *
-used_vertices(mr_ctx *ctx, const mr_mesh *m)
-{
-	bool *used = MR_NEW_ZERO(ctx, m->nv, bool);
-
-	for (size_t f = 0; used && f < m->nf; f++)
-		for (int i = 0; i < 3; i++)
-			used[m->t[f].v[i]] = true;
-	return used;
-}
-
 /* From a mesh with area: its vertices for the extremes, pieces of its faces for the integrals. */
 static void
 measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, double scale, mr_distance *d)
@@ -380,13 +369,13 @@ compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compar
 	mr_mark mark = mr_mark_take(ctx);
 	job j = { .a = a, .b = b, .alike = alike && !opts->vertices_only };
 	double area = opts->vertices_only ? 0 : mr_mesh_area(ctx, a);
+	size_t count;
 	mr_bvh *bvh;
 
 	mr_bvh_build(ctx, b, &bvh);
 	j.bvh = bvh;
-	if (a->nf > 0 && !opts->vertices_only) {
-		j.used = used_vertices(ctx, a);
-	}
+	if (a->nf > 0 && !opts->vertices_only)
+		mr_vertices_used(ctx, a->t, a->nf, a->nv, &j.used, &count);
 	if (area > 0)
 		measure_surface(ctx, &j, opts, area, scale, out);
 	else

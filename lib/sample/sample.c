@@ -242,7 +242,6 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 
 	if (n == 0)
 		return mr_fail(ctx, MR_EMESH, "no points to sample");
-	MR_TRY(mr_cloud_check_spread(ctx, point, n));
 	MR_TRY(mr_sampling_find(ctx, point, n, known, &sampling));
 	/* what close ones look up is in the cache */
 	mr_sampling_sort(ctx, point, &sampling, sorted, &sampling);

@@ -69,21 +69,6 @@ static const double FLAT = 1e-6;
 /* Directions of at most this cosine, 45 degrees, lie apart. */
 static const double APART = 0.7;
 
-mr_status
-mr_cloud_check_spread(mr_ctx *ctx, const mr_v3 *p, size_t n)
-{
-	static const double least = 1e-70, most = 1e70;
-	mr_box box = mr_box_of(p, n);
-	mr_v3 size = mr_sub(box.max, box.min);
-	double spread = fmax(size.x, fmax(size.y, size.z));
-
-	if (n > 0 && (spread > most || (spread > 0 && spread < least)))
-		return mr_fail(ctx, MR_ERANGE,
-		    "the %zu points spread over %g, and only %g to %g can be computed with", n, spread, least,
-		    most);
-	return MR_OK;
-}
-
 void
 mr_covariance(const mr_v3 *p, size_t k, double scale, double sum[6])
 {

@@ -40,14 +40,8 @@ mr_v3 mr_plane_around(const mr_v3 *q, size_t k, double *variation);
 double mr_own_area(const double *dist2, size_t k);
 
 /*
- * MR_ERANGE where the points spread over less than 1e-70 or more than 1e70, as the fourth power of a length
- * would be no number; those at one place pass.
- */
-mr_status mr_cloud_check_spread(mr_ctx *ctx, const mr_v3 *p, size_t n) MR_WARN_UNUSED;
-
-/*
- * How many dimensions the points extend in, 0 to 3: by a deviation of more than 1e-6 of their spread, which is
- * beyond the rounding of single precision.
+ * How many dimensions the points extend in, 0 to 3: by a deviation of more than 1e-6 of their spread, which
+ * is beyond the rounding of single precision.
  */
 int mr_cloud_dimensions(const mr_v3 *p, size_t n);
 

@@ -403,7 +403,6 @@ find(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_sampling *out)
 	mr_sampling s = { .spacing = spacing, .outlier = outlier, .repeat = repeat, .n = n };
 	cloud c;
 
-	MR_TRY(mr_cloud_check_spread(ctx, p, n));
 	find_places(ctx, p, n, place, repeat, &c);
 	MR_TRY(find_of_places(ctx, &c, &s));
 	for (size_t i = 0; i < n; i++) {

@@ -38,7 +38,7 @@ typedef struct mr_sampling {
 static const double MR_NOISY = 0.35;
 
 /* n finite points; the columns are in the arena.  known: what is known of them already, which it becomes, or
- * NULL. MR_ERANGE as mr_cloud_check_spread says. */
+ * NULL. */
 mr_status mr_sampling_find(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *known, mr_sampling *s);
 
 /*

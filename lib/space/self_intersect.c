@@ -36,62 +36,45 @@ projection(const mr_v3 t[3], int *turn)
 	return 2;
 }
 
-/* Whether the interval of a b meets that of c d, by one coordinate. */
 static bool
-intervals_meet(double a, double b, double c, double d)
+one_sided(const int s[3])
 {
-	return fmin(a, b) <= fmax(c, d) && fmin(c, d) <= fmax(a, b);
+	return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
 }
 
-/* Closed segments in the plane without axis k. */
+/* Whether a line through a side of t, in the plane without axis k, has all n points beyond it. */
 static bool
-segments_meet(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d, int k)
+side_parts(const mr_v3 t[3], const mr_v3 *q, int n, int k, int turn)
 {
-	int i = (k + 1) % 3, j = (k + 2) % 3;
-	int sc = mr_orient2d(a, b, c, k), sd = mr_orient2d(a, b, d, k);
-	int sa = mr_orient2d(c, d, a, k), sb = mr_orient2d(c, d, b, k);
-
-	if (sc * sd > 0 || sa * sb > 0)
-		return false;
-	return intervals_meet(
-		   mr_coordinate(a, i), mr_coordinate(b, i), mr_coordinate(c, i), mr_coordinate(d, i)) &&
-	       intervals_meet(
-		   mr_coordinate(a, j), mr_coordinate(b, j), mr_coordinate(c, j), mr_coordinate(d, j));
+	for (int i = 0; i < 3; i++) {
+		int j = 0;
+		while (j < n && mr_orient2d(t[i], t[(i + 1) % 3], q[j], k) * turn < 0)
+			j++;
+		if (j == n)
+			return true;
+	}
+	return false;
 }
 
+/* Whether the line through a and b has all of t on one side. */
 static bool
-inside_flat(mr_v3 p, const mr_v3 t[3], int k, int turn)
+line_parts(mr_v3 a, mr_v3 b, const mr_v3 t[3], int k)
 {
+	int s[3];
+
 	for (int i = 0; i < 3; i++)
-		if (mr_orient2d(t[i], t[(i + 1) % 3], p, k) * turn < 0)
-			return false;
-	return true;
+		s[i] = mr_orient2d(a, b, t[i], k);
+	return one_sided(s);
 }
 
-/* The segment a b, in the plane of the triangle. */
+/* The segment a b, in the plane of the triangle: where they are apart, its line or a side parts them. */
 static bool
 meets_flat(mr_v3 a, mr_v3 b, const mr_v3 t[3])
 {
 	int turn, k = projection(t, &turn);
+	mr_v3 ends[2] = { a, b };
 
-	for (int i = 0; i < 3; i++)
-		if (segments_meet(a, b, t[i], t[(i + 1) % 3], k))
-			return true;
-	return inside_flat(a, t, k, turn);
-}
-
-/* Whether a line through a side of t, in the plane without axis k, has q beyond it. */
-static bool
-side_parts(const mr_v3 t[3], const mr_v3 q[3], int k, int turn)
-{
-	for (int i = 0; i < 3; i++) {
-		bool beyond = true;
-		for (int j = 0; j < 3 && beyond; j++)
-			beyond = mr_orient2d(t[i], t[(i + 1) % 3], q[j], k) * turn < 0;
-		if (beyond)
-			return true;
-	}
-	return false;
+	return !side_parts(t, ends, 2, k, turn) && !line_parts(a, b, t, k);
 }
 
 /* Triangles of positive area in one plane: where they are apart, a side of one parts them. */
@@ -100,7 +83,7 @@ flat_intersect(const mr_v3 p[3], const mr_v3 q[3])
 {
 	int turn, k = projection(p, &turn), of_q = mr_orient2d(q[0], q[1], q[2], k);
 
-	return !side_parts(p, q, k, turn) && !side_parts(q, p, k, of_q);
+	return !side_parts(p, q, 3, k, turn) && !side_parts(q, p, 3, k, of_q);
 }
 
 /* The closed segment a b, whose ends lie on the sides sa and sb of the closed triangle's plane. */
@@ -126,12 +109,6 @@ sides(const mr_v3 plane[3], const mr_v3 p[3], int out[3])
 {
 	for (int i = 0; i < 3; i++)
 		out[i] = mr_orient3d(plane[0], plane[1], plane[2], p[i]);
-}
-
-static bool
-one_sided(const int s[3])
-{
-	return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
 }
 
 /* Triangles without a common corner. */

@@ -43,23 +43,12 @@ mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader)
 	return status;
 }
 
-static bool
-is_shared(const mr_reader *r, const void *heap)
-{
-	for (size_t i = 0; i < r->count; i++)
-		if (r->stored[i]->heap == heap)
-			return true;
-	return false;
-}
-
-/* Of a column that is not among the reader's any more. */
 static void
-stored_free(const mr_reader *r, mr_stored *s)
+stored_free(mr_stored *s)
 {
 	if (!s->heap)
 		mr_input_forget(s->payload - MR_HEADER, MR_HEADER + mr_record_padded(s->head.stored));
-	else if (!is_shared(r, s->heap))
-		mr_memory_free(s->heap);
+	mr_memory_free(s->heap);
 	mr_memory_free(s->inflated);
 	mr_memory_free(s);
 }
@@ -71,7 +60,7 @@ drop_one(mr_reader *r, size_t i)
 
 	r->count--;
 	memmove(r->stored + i, r->stored + i + 1, (r->count - i) * sizeof *r->stored);
-	stored_free(r, s);
+	stored_free(s);
 }
 
 static void
@@ -281,25 +270,6 @@ room_for_one(mr_ctx *ctx, mr_reader *r)
 	return MR_OK;
 }
 
-/*
- * A payload from a pipe that is there already, in a column of the same name, is kept once: a base has the
- * triangles of its mesh until it is remeshed.
- */
-static void
-share(const mr_reader *r, mr_stored *s)
-{
-	size_t i = 0;
-
-	while (i < r->count && (!r->stored[i]->heap || r->stored[i]->head.stored != s->head.stored ||
-				   strcmp(r->stored[i]->head.name, s->head.name)))
-		i++;
-	if (!s->heap || i == r->count || memcmp(r->stored[i]->payload, s->payload, (size_t)s->head.stored))
-		return;
-	mr_memory_free(s->heap);
-	s->heap = r->stored[i]->heap;
-	s->payload = r->stored[i]->payload;
-}
-
 /* A column takes its old place, or the last. */
 static mr_status
 keep(mr_ctx *ctx, mr_reader *r, const piece *p)
@@ -324,13 +294,12 @@ keep(mr_ctx *ctx, mr_reader *r, const piece *p)
 		.payload = p->record + MR_HEADER,
 		.heap = p->heap };
 	memcpy(s->header, p->record, MR_HEADER);
-	share(r, s);
 	old = i < r->count ? r->stored[i] : NULL;
 	r->count += !old;
 	r->sent++;
 	r->stored[i] = s;
 	if (old)
-		stored_free(r, old);
+		stored_free(old);
 	return MR_OK;
 }
 

@@ -18,7 +18,7 @@ typedef struct sent {
 	const mr_reader
 	    *owner; /* a column passed on: whose payload, and which; NULL: the print of its bytes */
 	uint64_t serial;
-	mr_fingerprint print;
+	uint64_t print;
 } sent;
 
 struct mr_writer {
@@ -166,7 +166,7 @@ identify(const mr_column *c)
 		s.owner = c->stored->owner;
 		s.serial = c->serial;
 	} else {
-		s.print = mr_fingerprint_of(c->data, (size_t)size_of(c));
+		s.print = mr_fingerprint(c->data, (size_t)size_of(c));
 	}
 	return s;
 }
@@ -181,7 +181,7 @@ static bool
 same_values(const sent *a, const sent *b)
 {
 	return mr_same_shape(a->shape, b->shape) && a->owner == b->owner && a->serial == b->serial &&
-	       a->print.a == b->print.a && a->print.b == b->print.b;
+	       a->print == b->print;
 }
 
 /*

@@ -363,7 +363,7 @@ int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
 {
 	static int in = -1, out = -1;
-	unsigned way = (unsigned)mr_fingerprint_of(bytes, n).a;
+	unsigned way = (unsigned)mr_fingerprint(bytes, n);
 	size_t frames;
 	mr_writer *writer;
 	mr_ctx ctx;
