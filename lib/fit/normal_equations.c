@@ -149,8 +149,8 @@ check_valences(mr_ctx *ctx, const mr_sparse *patch)
 		pairs += (double)length_of(patch, f) * (double)length_of(patch, f);
 	if (pairs > most)
 		return mr_fail(ctx, MR_EMESH,
-		    "control: vertices with so many faces are coupled in %.3g pairs; at most %.3g may be", pairs,
-		    most);
+		    "control: vertices with so many faces are coupled in %.3g pairs; at most %.3g may be",
+		    pairs, most);
 	return MR_OK;
 }
 

@@ -10,7 +10,6 @@
 #define MR_MESH_DYNMESH_H
 
 #include "mesh/fold.h"
-#include "mesh/guarded_move.h"
 
 typedef enum mr_kind {
 	MR_SMOOTH, /* free on the surface */
@@ -188,10 +187,8 @@ mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
  */
 void mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
 
-/* A guard of its vertices' moves without a predicate; its holes are no faces. */
-mr_guard mr_dyn_guard(const mr_dyn *d);
-
-/* The mesh as it is, sharing the arrays; only after mr_dyn_compact. */
+/* The mesh as it is, sharing the arrays; its holes, until mr_dyn_compact, are faces whose first corner is
+ * MR_NONE. */
 mr_mesh mr_dyn_view(const mr_dyn *d, const char *name);
 
 #endif

@@ -134,14 +134,6 @@ mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feat
 	return MR_OK;
 }
 
-mr_guard
-mr_dyn_guard(const mr_dyn *d)
-{
-	return (mr_guard){
-		.t = (const mr_tri *)(const void *)d->v, .topo = { d->twin, d->out }, .nv = d->nv, .nf = d->nf
-	};
-}
-
 mr_mesh
 mr_dyn_view(const mr_dyn *d, const char *name)
 {

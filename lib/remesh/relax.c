@@ -3,6 +3,7 @@
 #include "remesh/relax.h"
 
 #include "base/parallel.h"
+#include "mesh/guarded_move.h"
 #include "op/voronoi_area.h"
 #include "space/surface_walk.h"
 
@@ -12,10 +13,10 @@ typedef struct pass {
 	mr_dyn *d;
 	const mr_remesh_source *s;
 	const mr_relax_opts *o;
-	bool project;      /* in this pass */
-	float *part;       /* in the same memory as p: of each half-edge, as in areas_job */
-	double *gravity;   /* of each vertex, first its area */
-	mr_v3 *p;          /* where the vertices go */
+	bool project;    /* in this pass */
+	float *part;     /* in the same memory as p: of each half-edge, as in areas_job */
+	double *gravity; /* of each vertex, first its area */
+	mr_v3 *p;        /* where the vertices go */
 	uint32_t *at;
 } pass;
 

@@ -1,6 +1,7 @@
 /* The last steps of a wrap that is near the points: onto them, without folds, and not through itself. */
 #include "base/sort.h"
 #include "measure/gaps.h"
+#include "mesh/guarded_move.h"
 #include "mesh/zorder.h"
 #include "remesh/remesh.h"
 #include "remesh/unfold.h"
@@ -93,6 +94,49 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
 
 	w->folds = mr_count_folds(ctx, &m, w->d.twin);
 	return mr_wrap_measure(ctx, cloud, &m, MR_WRAP_SAMPLES, &w->cover);
+}
+
+typedef struct crossing {
+	const mr_dyn *d;
+	bool *crosses; /* each face */
+} crossing;
+
+static mr_status
+find_crossings(mr_ctx *ctx, void *arg)
+{
+	const crossing *w = arg;
+	mr_mesh m = mr_dyn_view(w->d, "control");
+	size_t count;
+
+	mr_self_intersections(ctx, NULL, &m, w->crosses, &count);
+	return MR_OK;
+}
+
+static bool
+crosses(const void *arg, uint32_t f)
+{
+	return ((const crossing *)arg)->crosses[f];
+}
+
+/* Without the ring sheets of which one has settled into the next are left with folds. */
+mr_status
+mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	crossing w = { d, MR_NEW(ctx, d->nf, bool) };
+	mr_guard g = { .t = mr_dyn_view(d, "control").t,
+		.topo = { d->twin, d->out },
+		.nv = d->nv,
+		.nf = d->nf,
+		.halves = 2,
+		.rings = 1,
+		.look = find_crossings,
+		.is_bad = crosses,
+		.arg = &w };
+
+	MR_TRY(mr_guarded_move(ctx, &g, home, d->p));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 mr_status

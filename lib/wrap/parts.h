@@ -38,16 +38,12 @@ mr_status mr_wrap_box(mr_ctx *ctx, mr_box box, const size_t edges[3], mr_mesh *o
 /* The same as a mr_dyn without curves. */
 mr_status mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d);
 
-/* v <- v + alpha (q - v), q the point nearest to v; guarded: by mr_wrap_move. */
+/* v <- v + alpha (q - v), q the point nearest to v; guarded: by mr_move_unfolded. */
 mr_status mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, bool guarded, mr_dyn *d);
 
-/* v <- v + lambda Lt, Lt the tangential part of the umbrella vector; guarded: by mr_wrap_move.  Boundary
+/* v <- v + lambda Lt, Lt the tangential part of the umbrella vector; guarded: so too.  Boundary
  * vertices stay. */
 mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
-
-/* Moves the vertices to `to`, d->nv, but those that would turn a face by more than 60 degrees or close it;
- * `to` becomes where they are. */
-mr_status mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d);
 
 /* Remeshes m to edges of about `length`, in one round. */
 mr_status mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d);
