@@ -1,7 +1,5 @@
-/*
- * Two guarded moves (mesh/guarded_move.h) of a control mesh, one within the other: its faces answer for
- * themselves, and whenever they are good for the surface that they make.
- */
+/* A guarded move (mesh/guarded_move.h) of a control mesh, whose faces answer for themselves and for the
+ * surface that they make. */
 #include "fit/guard.h"
 
 #include "mesh/fold.h"
@@ -16,11 +14,6 @@ enum { HALVES = 4 };
  * largest 3.5 %, with six nothing is less but that, by 0.4 %. */
 enum { SMOOTHS = 3 };
 
-/* Rings around a control face that its surface depends on.  Held back with the corners of control faces that
- * are bad by themselves, too, they would leave 10 % more distance; with none for the surface, some fits whose
- * limit surface did not pass through itself would begin to. */
-enum { RINGS = 1 };
-
 /* A level of the surface, at the end of a step and as it was seen last within one. */
 typedef struct layer {
 	mr_fit_guard *g;
@@ -30,7 +23,6 @@ typedef struct layer {
 	mr_v3 *seen;      /* the same then */
 	bool *moves;      /* control faces whose surface had moved */
 	bool *crosses;    /* its faces that pass through others */
-	bool *tangled;    /* control vertices of such faces at the end of a step */
 } layer;
 
 struct mr_fit_guard {
@@ -50,24 +42,14 @@ crosses(const layer *y, size_t f)
 	return false;
 }
 
-/* What is tangled has to pass through itself to come apart. */
-static bool
-is_tangled(const layer *y, size_t f)
-{
-	const uint32_t *v = y->g->level[0].t[f].v;
-
-	return y->tangled[v[0]] || y->tangled[v[1]] || y->tangled[v[2]];
-}
-
 /* That the surface turns over is no reason: without it fits come 1 % closer, with fewer folds. */
 static bool
-is_bad(const void *arg, uint32_t f)
+is_bad_on(const layer *y, uint32_t f)
 {
-	const layer *y = arg;
 	const mr_loop *l = &y->g->level[y->level];
 	mr_mesh from = { NULL, y->from, l->t, l->nv, l->nf }, to = { NULL, y->to, l->t, l->nv, l->nf };
 
-	if (crosses(y, f) && !is_tangled(y, f))
+	if (crosses(y, f))
 		return true;
 	for (size_t k = (size_t)f << 2 * y->level; k < ((size_t)f + 1) << 2 * y->level; k++)
 		if (mr_folds_more(&from, &to, l->topo.twin, (uint32_t)k, y->closed))
@@ -75,7 +57,13 @@ is_bad(const void *arg, uint32_t f)
 	return false;
 }
 
-/* Looks */
+static bool
+is_bad(const void *arg, uint32_t f)
+{
+	const guard *g = arg;
+
+	return is_bad_on(&g->control, f) || is_bad_on(&g->fine, f);
+}
 
 /* The control faces whose surface has moved since it was seen last. */
 static void
@@ -104,44 +92,23 @@ refine(mr_ctx *ctx, layer *y)
 	mr_mark_release(ctx, mark);
 }
 
-static mr_status
-look(mr_ctx *ctx, void *arg)
+static void
+look_at(mr_ctx *ctx, layer *y)
 {
-	layer *y = arg;
-
 	if (y->level > 0)
 		refine(ctx, y);
 	find_moves(y);
 	mr_find_crossings(ctx, y->g->level, y->level, y->to, y->moves, y->crosses);
+}
+
+static mr_status
+look(mr_ctx *ctx, void *arg)
+{
+	guard *g = arg;
+
+	look_at(ctx, &g->control);
+	look_at(ctx, &g->fine);
 	return MR_OK;
-}
-
-/* Moves the control mesh as far as the layer lets it. */
-static mr_status
-move(mr_ctx *ctx, layer *y, mr_status (*see)(mr_ctx *ctx, void *arg), unsigned rings)
-{
-	const guard *g = y->g;
-	const mr_loop *l = &g->level[0];
-	mr_guard m = { .t = l->t,
-		.topo = l->topo,
-		.nv = l->nv,
-		.nf = l->nf,
-		.halves = HALVES,
-		.rings = rings,
-		.look = see,
-		.is_bad = is_bad,
-		.arg = y };
-
-	return mr_guarded_move(ctx, &m, g->control.from, g->control.to);
-}
-
-static mr_status
-look_at_fine(mr_ctx *ctx, void *arg)
-{
-	layer *y = arg;
-
-	MR_TRY(move(ctx, &y->g->control, look, 0));
-	return look(ctx, y);
 }
 
 /* The vertices stay where they were seen last. */
@@ -151,21 +118,17 @@ rest(layer *y)
 	const mr_loop *level = y->g->level;
 
 	memcpy(y->from, y->to, level[y->level].nv * sizeof *y->to);
-	memset(y->tangled, 0, level[0].nv * sizeof *y->tangled);
-	for (size_t f = 0; f < level[0].nf; f++)
-		for (int k = 0; k < 3; k++)
-			y->tangled[level[0].t[f].v[k]] |= crosses(y, f);
 }
 
 static void
 layer_new(mr_ctx *ctx, guard *g, size_t level, double closed, layer *y)
 {
-	size_t nv = g->level[0].nv, fine_nv = g->level[level].nv;
+	size_t nv = g->level[level].nv;
 
-	*y = (layer){ g, level, closed, MR_NEW(ctx, fine_nv, mr_v3), MR_NEW(ctx, fine_nv, mr_v3),
-		MR_NEW(ctx, fine_nv, mr_v3), MR_NEW(ctx, g->level[0].nf, bool),
-		MR_NEW_ZERO(ctx, g->level[level].nf, bool), MR_NEW(ctx, nv, bool) };
-	memset(y->seen, 0xff, fine_nv * sizeof *y->seen); /* nowhere */
+	*y = (layer){ g, level, closed, MR_NEW(ctx, nv, mr_v3), MR_NEW(ctx, nv, mr_v3),
+		MR_NEW(ctx, nv, mr_v3), MR_NEW(ctx, g->level[0].nf, bool),
+		MR_NEW_ZERO(ctx, g->level[level].nf, bool) };
+	memset(y->seen, 0xff, nv * sizeof *y->seen); /* nowhere */
 }
 
 mr_status
@@ -177,8 +140,7 @@ mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, mr_fit_gu
 	layer_new(ctx, g, 0, MR_FOLD, &g->control);
 	layer_new(ctx, g, MR_FIT_FINE, MR_NEAR_FOLD, &g->fine);
 	memcpy(g->control.to, x, s->level[0].nv * sizeof *x);
-	MR_TRY(look(ctx, &g->control));
-	MR_TRY(look(ctx, &g->fine));
+	MR_TRY(look(ctx, g));
 	rest(&g->control);
 	rest(&g->fine);
 	*out = g;
@@ -209,7 +171,7 @@ smooth(mr_ctx *ctx, const guard *g, mr_v3 *z)
 
 	for (uint32_t f = 0; f < l->nf; f++) {
 		const uint32_t *v = l->t[f].v;
-		bool bad = is_bad(&g->control, f);
+		bool bad = is_bad_on(&g->control, f);
 		for (int k = 0; k < 3; k++) {
 			sum[v[k]] = mr_add(sum[v[k]], mr_add(z[v[(k + 1) % 3]], z[v[(k + 2) % 3]]));
 			count[v[k]] += 2;
@@ -232,15 +194,17 @@ aim(guard *g, const mr_v3 *z)
 mr_status
 mr_fit_step(mr_ctx *ctx, mr_fit_guard *g, mr_v3 *x, mr_v3 *z, size_t *damped)
 {
-	size_t nv = g->level[0].nv;
+	const mr_loop *l = &g->level[0];
+	size_t nv = l->nv;
+	mr_guard m = { l->t, l->topo, nv, l->nf, HALVES, 0, look, is_bad, g };
 
 	aim(g, z);
 	for (int i = 0; i < SMOOTHS; i++) {
-		MR_TRY(look(ctx, &g->control));
+		look_at(ctx, &g->control);
 		smooth(ctx, g, z);
 		aim(g, z);
 	}
-	MR_TRY(move(ctx, &g->fine, look_at_fine, RINGS));
+	MR_TRY(mr_guarded_move(ctx, &m, g->control.from, g->control.to));
 	*damped = 0;
 	for (size_t v = 0; v < nv; v++)
 		*damped += mr_dist(g->control.to[v], mr_add(x[v], z[v])) > 0;

@@ -2,7 +2,7 @@
  * guard.h -- steps of a fit that fold nothing, neither the limit surface nor the control mesh, which is to be
  * edited, and let nothing pass through itself.
  *
- * Contract: what is folded or passes through itself already may go on, else it would never come apart.
+ * Contract: what is folded already may go on, else it would never come apart.
  */
 #ifndef MR_FIT_GUARD_H
 #define MR_FIT_GUARD_H
@@ -20,10 +20,10 @@ size_t mr_fit_crossing(const mr_fit_guard *guard);
 
 /*
  * Moves x, where the guard saw it last, by z.  Where that would close an edge of the control mesh beyond 170
- * degrees that was less so, or let a face of it pass through another but around those that do, z becomes more
- * like the motions around, so that what sticks out moves as a whole; then what would do so still goes half as
- * far, and so on; at last it stays.  So does what the surface depends on where it would close beyond
- * 150 degrees or pass through itself.  *damped: vertices that did not go all the way.
+ * degrees that was less so, or let a face of it pass through another, z becomes more like the motions around,
+ * so that what sticks out moves as a whole; then what would do so still goes half as far, and so on; at last
+ * it stays.  So do the corners of faces whose surface would close beyond 150 degrees or pass through itself.
+ * *damped: vertices that did not go all the way.
  */
 mr_status mr_fit_step(mr_ctx *ctx, mr_fit_guard *guard, mr_v3 *x, mr_v3 *z, size_t *damped);
 
