@@ -30,7 +30,9 @@ struct cmd_state {
 	mr_writer *writer;
 	int out;            /* descriptor of the stream */
 	FILE *text, *stats; /* a sink's output; --stats */
-	mr_outfile output_file, held, stats_file;
+	mr_outfile output_file, stats_file;
+	mr_side **sides; /* that the tool has opened */
+	size_t side_count, side_room;
 	place_guard places;
 	bool opens_stream; /* the file that is opened is that of the stream */
 
@@ -99,7 +101,7 @@ static _Noreturn void
 leave(cmd *c, int code)
 {
 	mr_outfile_drop(&c->ctx, &c->state->output_file);
-	mr_outfile_drop(&c->ctx, &c->state->held);
+	mr_outfile_drop(&c->ctx, &c->held);
 	mr_outfile_drop(&c->ctx, &c->state->stats_file);
 	exit(code);
 }
@@ -195,16 +197,23 @@ collect_finding(void *user, const mr_finding *f)
 	findings_collect(&c->state->book, c->name, f);
 }
 
-/* Runs the last act of a tool, and reports what it found. */
-static void
+/* The streams beside the first must end with it; then runs the last act of a tool, and reports what it found.
+ */
+static mr_status
 finish(cmd *c)
 {
 	struct cmd_state *s = c->state;
 
 	s->book.found.n = 0;
-	try(c, c->tool->finish(c));
+	for (size_t i = 0; i < s->side_count; i++)
+		MR_TRY(mr_side_end(&c->ctx, s->sides[i], c->frame));
+	if (c->tool->names_output && c->frame == 0)
+		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame");
+	if (c->tool->finish)
+		MR_TRY(c->tool->finish(c));
 	if (!c->quiet)
 		findings_say(&s->book.found, &s->book.carried, show_warning, c);
+	return MR_OK;
 }
 
 /* After a second of work, at most ten times a second. */
@@ -377,15 +386,16 @@ mr_status
 cmd_output_name(cmd *c, const char *what, const char *suffix)
 {
 	size_t n = c->operand_count;
+	bool terminal = is_terminal(STDOUT_FILENO) && suffix;
 
 	if (n == 0 || (n > 1 && !c->tool->reads_rest))
 		return mr_fail(&c->ctx, MR_EUSAGE, "one %s is expected, not %zu%s", what, n,
 		    n ? ": the stream to read is -i FILE or stdin" : "");
-	if (!mr_outname_suits(c->operands[0], suffix))
+	if (suffix && !mr_outname_suits(c->operands[0], suffix))
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s does not end in %s: %s", c->operands[0], suffix,
 		    c->tool->reads_rest ? "it is written, and the streams behind it are read"
 					: "the stream to read is -i FILE");
-	if (!strcmp(c->operands[0], "-") && is_terminal(STDOUT_FILENO))
+	if (!strcmp(c->operands[0], "-") && terminal)
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s is not written to a terminal", what);
 	if (n > 1 && c->state->input)
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s and -i %s are both the first stream", c->operands[1],
@@ -511,14 +521,8 @@ close_outputs(cmd *c)
 	if (close(STDOUT_FILENO))
 		die(c, fail_system(c, "stdout"));
 	try(c, mr_outfile_keep(&c->ctx, &s->output_file));
-	try(c, mr_outfile_keep(&c->ctx, &s->held));
+	try(c, mr_outfile_keep(&c->ctx, &c->held));
 	try(c, mr_outfile_keep(&c->ctx, &s->stats_file));
-}
-
-void
-cmd_hold(cmd *c, const mr_outfile *file)
-{
-	c->state->held = *file;
 }
 
 void
@@ -744,8 +748,11 @@ cmd_input(cmd *c, const char *path)
 mr_status
 cmd_side(cmd *c, const char *path, mr_side *side)
 {
+	struct cmd_state *s = c->state;
 	mr_frame *frame;
 
+	MR_RESERVE(&c->keep, s->sides, s->side_count, 1, &s->side_room);
+	s->sides[s->side_count++] = side;
 	if (!place_is_model(path))
 		return mr_side_open(&c->ctx, path, side);
 	MR_TRY(mr_import(&c->keep, path, NULL, &frame, NULL));
@@ -849,8 +856,7 @@ run(cmd *c, int argc, char **argv, int *code)
 	else
 		read_streams(c);
 	*code = account(c);
-	if (tool->finish)
-		finish(c);
+	MR_TRY(finish(c));
 	close_outputs(c);
 	return MR_OK;
 }

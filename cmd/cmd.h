@@ -68,8 +68,10 @@ struct cmd {
 	mr_cache *cache; /* over the frames of a tool that `caches` */
 	uint64_t frame;  /* number of the frame at work, from 1; in finish, how many there were */
 	bool verbose, quiet, keep_going;
-	bool no_check;      /* a judged tool is not judged */
-	bool stats;         /* figures are asked for: --stats */
+	bool no_check; /* a judged tool is not judged */
+	bool stats;    /* figures are asked for: --stats */
+	mr_outfile
+	    held; /* a file that is whole gets its name at the end, if all goes well; else it is dropped */
 	mr_packing packing; /* what the writer does with columns; mr-cat sets it in prepare */
 	struct cmd_state *state;
 };
@@ -90,14 +92,16 @@ mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN
  * passes. */
 mr_status cmd_layer_name(cmd *c, const char *option, const char *name) MR_WARN_UNUSED;
 
-/* For prepare, of a sink that names its output: MR_EUSAGE where its first operand, `what`, is not there, does
- * not end in the suffix, or is a terminal; and where there are others, which it does not read. */
+/* For prepare, of a sink that names its output: MR_EUSAGE where its first operand, `what`, is not there, or,
+ * where a suffix is given, does not end in it or is a terminal; and where there are others, which it does not
+ * read. */
 mr_status cmd_output_name(cmd *c, const char *what, const char *suffix) MR_WARN_UNUSED;
 
 /* For prepare, of a tool with operands of its own: reads that instead of stdin.  MR_EUSAGE beside -i. */
 mr_status cmd_input(cmd *c, const char *path) MR_WARN_UNUSED;
 
-/* Opens a stream, or a model as a stream of one frame, beside the one that is read. */
+/* Opens a stream, or a model as a stream of one frame, beside the one that is read, with which it must end.
+ */
 mr_status cmd_side(cmd *c, const char *path, mr_side *side) MR_WARN_UNUSED;
 
 /* Sends a frame now: a source, or a filter that says it `sends`. */
@@ -108,10 +112,6 @@ mr_status cmd_send(cmd *c, const mr_frame *f);
  * an arena of its own; with -k one that fails is reported and left out.
  */
 mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand));
-
-/* A file that is whole (zeroed: there is none) gets its name at the end, if all goes well; else it is
- * dropped. One at most. */
-void cmd_hold(cmd *c, const mr_outfile *file);
 
 /* A figure of the frame at work, for --stats. */
 void cmd_figure(cmd *c, const char *name, double value);

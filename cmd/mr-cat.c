@@ -72,7 +72,7 @@ cat_frame(cmd *c, mr_frame *f)
 }
 
 static mr_status
-send_appended(cmd *c)
+finish(cmd *c)
 {
 	mr_frame *all;
 
@@ -80,14 +80,6 @@ send_appended(cmd *c)
 		return MR_OK;
 	MR_TRY(mr_frames_append(&c->ctx, kept, kept_count, &all));
 	return cmd_send(c, all);
-}
-
-static mr_status
-finish(cmd *c)
-{
-	for (size_t i = 0; i < side_count; i++)
-		MR_TRY(mr_side_end(&c->ctx, &sides[i], c->frame));
-	return send_appended(c);
 }
 
 const cmd_tool cmd_this = {

@@ -116,18 +116,11 @@ compare(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-static mr_status
-finish(cmd *c)
-{
-	return other.path ? mr_side_end(&c->ctx, &other, c->frame) : MR_OK;
-}
-
 const cmd_tool cmd_this = {
 	.summary = "measure how far two surfaces or clouds are apart",
 	.operands = "[[FILE_A] FILE_B]",
 	.options = table,
 	.prepare = open_other,
 	.frame = compare,
-	.finish = finish,
 	.sink = true,
 };

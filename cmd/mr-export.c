@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 static const char *format;
-static uint64_t written;
 static mr_string_set given;
 static mr_scene scene = { .folder = "." };
 
@@ -27,9 +26,7 @@ check(cmd *c)
 	bool binary;
 	char *name;
 
-	if (c->operand_count != 1)
-		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT is expected, not %zu%s", c->operand_count,
-		    c->operand_count ? ": the stream to read is -i FILE or stdin" : "");
+	MR_TRY(cmd_output_name(c, "OUT", NULL));
 	out = c->operands[0];
 	if (!strcmp(out, "-") && !format)
 		return mr_fail(&c->ctx, MR_EUSAGE, "OUT is stdout: -f FORMAT is needed");
@@ -53,7 +50,6 @@ add_to_scene(cmd *c, mr_frame *f)
 	char *path;
 
 	MR_TRY(mr_scene_add(&c->ctx, varies ? &c->ctx : &c->keep, varies ? &own : &scene, f, c->layer));
-	written++;
 	if (!varies)
 		return MR_OK;
 	MR_TRY(mr_outname_once(&c->ctx, &given, out, f->name, f->number, &path));
@@ -64,35 +60,25 @@ static mr_status
 export_frame(cmd *c, mr_frame *f)
 {
 	const char *out = c->operands[0];
-	bool varies = mr_outname_varies(out);
-	mr_outfile held = { 0 };
+	bool varies = mr_outname_varies(out); /* else another frame may come, or the stream break off */
 	char *path;
 
 	if (mr_scene_suits(out, format))
 		return add_to_scene(c, f);
 	MR_TRY(mr_outname_once(&c->ctx, &given, out, f->name, f->number, &path));
-	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held));
-	written++;
-	if (!varies)
-		cmd_hold(c, &held); /* of one frame: another may come, or the stream break off */
-	return MR_OK;
+	return mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &c->held);
 }
 
 static mr_status
 finish(cmd *c)
 {
 	const char *out = c->operands[0];
-	mr_outfile held = { 0 };
 	char *path;
 
-	if (written == 0)
-		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame to write");
 	if (scene.nodes == 0)
 		return MR_OK;
 	MR_TRY(mr_outname(&c->ctx, out, "", 0, &path));
-	MR_TRY(mr_scene_write(&c->ctx, path, format, &scene, &held));
-	cmd_hold(c, &held);
-	return MR_OK;
+	return mr_scene_write(&c->ctx, path, format, &scene, &c->held);
 }
 
 const cmd_tool cmd_this = {

@@ -117,8 +117,6 @@ finish(cmd *c)
 {
 	mr_image image;
 
-	if (gallery.frames == 0 && (sheet || !mr_outname_varies(c->operands[0])) && written == 0)
-		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame to draw");
 	if (!sheet)
 		return write_frames(c);
 	MR_TRY(mr_sheet_draw(&c->ctx, &gallery, &opts, &image));

@@ -43,12 +43,7 @@ view_frame(cmd *c, mr_frame *f)
 static mr_status
 finish(cmd *c)
 {
-	mr_outfile held = { 0 };
-
-	if (page.frames == 0)
-		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame to show");
-	MR_TRY(mr_page_write(&c->ctx, &page, mr_page_html, c->operands[0], &held));
-	cmd_hold(c, &held);
+	MR_TRY(mr_page_write(&c->ctx, &page, mr_page_html, c->operands[0], &c->held));
 	mr_page_free(&page);
 	return MR_OK;
 }

@@ -47,31 +47,6 @@ keep_places(mr_builder *b, uint32_t **places, size_t *room, const uint32_t *new,
 	b->plain = false;
 }
 
-static void
-move_corner(mr_builder *b, size_t to, size_t from)
-{
-	b->corner[to] = b->corner[from];
-	if (b->corner_uv)
-		b->corner_uv[to] = b->corner_uv[from];
-	if (b->corner_vn)
-		b->corner_vn[to] = b->corner_vn[from];
-}
-
-/* Corners that name the vertex of the one before, or the last the first, say nothing. */
-static size_t
-without_repeats(mr_builder *b, size_t n)
-{
-	const uint32_t *c = b->corner + b->corners;
-	size_t kept = 0;
-
-	for (size_t i = 0; i < n; i++)
-		if (kept == 0 || c[i] != c[kept - 1])
-			move_corner(b, b->corners + kept++, b->corners + i);
-	while (kept > 1 && c[kept - 1] == c[0])
-		kept--;
-	return kept;
-}
-
 /* The face at the end of the corners is there: what else is known of it. */
 static void
 mark_face(mr_builder *b, size_t corners)
@@ -96,8 +71,6 @@ mark_face(mr_builder *b, size_t corners)
 void
 mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n)
 {
-	size_t kept = n;
-
 	if (n < 3) {
 		b->skipped++;
 		return;
@@ -106,15 +79,8 @@ mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const u
 	memcpy(b->corner + b->corners, corner, n * sizeof *corner);
 	keep_places(b, &b->corner_uv, &b->uv_room, uv, n);
 	keep_places(b, &b->corner_vn, &b->vn_room, vn, n);
-	if (n > 3) {
-		kept = without_repeats(b, n);
-		b->m.counts.polygons++;
-	}
-	if (kept < 3) {
-		b->skipped++;
-		return;
-	}
-	mark_face(b, kept);
+	b->m.counts.polygons += n > 3;
+	mark_face(b, n);
 }
 
 /* ---- names ---- */
@@ -268,6 +234,18 @@ mr_build_value(mr_builder *b, size_t number, size_t row, double x)
 	k->x[row] = x;
 }
 
+/* x[of[i]] for rows of `size` bytes. */
+static void *
+gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n)
+{
+	const char *old = x;
+	char *new = mr_alloc(ctx, n, size);
+
+	for (size_t i = 0; i < n; i++)
+		memcpy(new + i *size, old + of[i] * size, size);
+	return new;
+}
+
 /* Values of a type: doubles where one is not of it. */
 static const void *
 narrow(mr_ctx *ctx, const double *x, size_t n, mr_shape *shape)
@@ -306,7 +284,7 @@ put_properties(mr_builder *b, const uint32_t *face)
 		if (of_faces && m->nf == 0)
 			continue;
 		fill_rows(b, k, of_faces ? b->faces : m->nv);
-		x = of_faces && face ? mr_gather(b->ctx, k->x, sizeof *x, face, m->nf) : k->x;
+		x = of_faces && face ? gather(b->ctx, k->x, sizeof *x, face, m->nf) : k->x;
 		*p = k->p;
 		p->data = narrow(b->ctx, x, of_faces ? m->nf : m->nv, &p->shape);
 		m->properties++;
@@ -363,19 +341,9 @@ mr_shades_said(mr_ctx *ctx, const mr_shades *s)
 		mr_tell(ctx, MR_ROUNDED, s->rounded, "values of colors");
 }
 
-void *
-mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n)
-{
-	const char *old = x;
-	char *new = mr_alloc(ctx, n, size);
-
-	for (size_t i = 0; new &&i < n; i++)
-		memcpy(new + i *size, old + of[i] * size, size);
-	return new;
-}
-
-bool
-mr_is_absent(const double *x, size_t width)
+/* Whether a value of `width` doubles is none. */
+static bool
+is_absent(const double *x, size_t width)
 {
 	return isnan(x[0] + x[1]) || (width == 3 && x[0] == 0 && x[1] == 0 && x[2] == 0);
 }
@@ -407,7 +375,7 @@ mr_number_rows(
 	for (size_t i = 0; i < n; i++) {
 		size_t at = hash_of(x + width * i, width) & mask;
 		number[i] = MR_NONE;
-		if (mr_is_absent(x + width * i, width))
+		if (is_absent(x + width * i, width))
 			continue;
 		while (slot[at] && memcmp(x + width * i, x + width * first[slot[at] - 1], bytes))
 			at = (at + 1) & mask;
@@ -421,20 +389,21 @@ mr_number_rows(
 	mr_mark_release(ctx, mark);
 }
 
-void
-mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width, const double *corner,
-    double **vertex, size_t *seams)
+/* The values of vertices, where those of all the corners of each are the same to the bit and no corner is
+ * without; else NULL.  Vertices of no face get zeros. */
+static const double *
+of_vertices(mr_builder *b, size_t width, const double *corner, size_t *seams)
 {
 	enum { NEW, ONE, SEVERAL };
-	double *value = MR_NEW_ZERO(ctx, width * nv, double);
-	unsigned char *seen = MR_NEW_ZERO(ctx, nv, unsigned char);
+	const mr_model *m = &b->m;
+	double *value = MR_NEW_ZERO(b->ctx, width * m->nv, double);
+	unsigned char *seen = MR_NEW_ZERO(b->ctx, m->nv, unsigned char);
 	bool whole = true;
 
-	*seams = 0;
-	for (size_t i = 0; i < 3 * nf; i++) {
-		size_t v = t[i / 3].v[i % 3];
+	for (size_t i = 0; i < 3 * m->nf; i++) {
+		size_t v = m->t[i / 3].v[i % 3];
 		const double *x = corner + width * i;
-		if (mr_is_absent(x, width))
+		if (is_absent(x, width))
 			whole = false;
 		else if (seen[v] == NEW) {
 			memcpy(value + width * v, x, width * sizeof *x);
@@ -444,20 +413,22 @@ mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_
 			++*seams;
 		}
 	}
-	*vertex = whole && *seams == 0 ? value : NULL;
+	return whole && *seams == 0 ? value : NULL;
 }
 
-/* The values of corners that stand at `place` of a list. */
+/* The values of corners that stand at `place` of a list: as those of vertices, or else of corners. */
 static void
-values_of(mr_ctx *ctx, const uint32_t *place, size_t n, size_t width, const double *list, double none,
-    const double **values)
+put_values(mr_builder *b, const uint32_t *place, size_t width, const double *list, double none,
+    const double **vertex, const double **corner, size_t *seams)
 {
-	double *x = MR_NEW(ctx, width * n, double);
+	size_t n = 3 * b->m.nf;
+	double *x = MR_NEW(b->ctx, width * n, double);
 
 	for (size_t i = 0; i < n; i++)
 		for (size_t k = 0; k < width; k++)
 			x[width * i + k] = place[i] == MR_NONE ? none : list[width * place[i] + k];
-	*values = x;
+	*vertex = of_vertices(b, width, x, seams);
+	*corner = *vertex ? NULL : x;
 }
 
 /* Texture coordinates of corners go before those of vertices. */
@@ -465,28 +436,22 @@ static void
 put_texcoords(mr_builder *b, const uint32_t *place)
 {
 	mr_model *m = &b->m;
-	const double *corner;
-	double *vertex;
+	const double *before = m->texcoord, *now;
 
-	values_of(b->ctx, place, 3 * m->nf, 2, b->uv, NAN, &corner);
-	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &m->counts.seam_vertices);
-	if (m->texcoord && (!vertex || memcmp(vertex, m->texcoord, 2 * m->nv * sizeof *vertex)))
+	put_values(b, place, 2, b->uv, NAN, &now, &m->corner_texcoord, &m->counts.seam_vertices);
+	if (before && (!now || memcmp(now, before, 2 * m->nv * sizeof *now)))
 		mr_lost(b->ctx, NULL, m->nv, "texture coordinates of vertices");
-	m->texcoord = vertex;
-	m->corner_texcoord = vertex ? NULL : corner;
+	m->texcoord = now;
 }
 
 static void
 put_normals(mr_builder *b, const uint32_t *place)
 {
-	mr_model *m = &b->m;
-	const double *corner;
-	double *vertex;
+	const double *vertex, *corner;
 
-	values_of(b->ctx, place, 3 * m->nf, 3, (const double *)b->vn, 0, &corner);
-	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &m->counts.crease_vertices);
-	m->normal = (const mr_v3 *)vertex;
-	m->corner_normal = vertex ? NULL : (const mr_v3 *)corner;
+	put_values(b, place, 3, &b->vn->x, 0, &vertex, &corner, &b->m.counts.crease_vertices);
+	b->m.normal = (const mr_v3 *)vertex;
+	b->m.corner_normal = (const mr_v3 *)corner;
 }
 
 /* ---- faces to triangles ---- */
@@ -581,7 +546,7 @@ put_marks(mr_builder *b, const uint32_t *face)
 		const mr_marks *k = &b->marks[i];
 		if (!k->used)
 			continue;
-		*of[i] = face ? mr_gather(b->ctx, k->of, sizeof *k->of, face, m->nf) : k->of;
+		*of[i] = face ? gather(b->ctx, k->of, sizeof *k->of, face, m->nf) : k->of;
 		if (names[i])
 			*names[i] = lines_of(&k->names);
 	}
@@ -603,9 +568,9 @@ put_faces(mr_builder *b, triangles *r)
 		m->nf = r->n;
 		m->polygon = number_polygons(b, r);
 		if (uv)
-			uv = mr_gather(b->ctx, uv, sizeof *uv, r->place, 3 * r->n);
+			uv = gather(b->ctx, uv, sizeof *uv, r->place, 3 * r->n);
 		if (vn)
-			vn = mr_gather(b->ctx, vn, sizeof *vn, r->place, 3 * r->n);
+			vn = gather(b->ctx, vn, sizeof *vn, r->place, 3 * r->n);
 	}
 	put_marks(b, r->face);
 	if (uv)

@@ -132,26 +132,12 @@ mr_build_triangle(mr_builder *b, uint32_t i, uint32_t j, uint32_t k)
 	return true;
 }
 
-/* Whether a value of `width` doubles is none: NaN, or where the width is 3 all zero. */
-bool mr_is_absent(const double *x, size_t width);
-
-/*
- * Values of corners, `width` doubles for each of 3 nf, as values of vertices where those of every vertex are
- * the same to the bit and no corner is without; else *vertex is NULL.
- * Vertices of no face get zeros.  *seams: vertices of several.
- */
-void mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
-    const double *corner, double **vertex, size_t *seams);
-
 /*
  * Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one
- * that is none.  first: of each number, its first row.
+ * that is none: NaN, or where the width is 3 all zero.  first: of each number, its first row.
  */
 void mr_number_rows(
     mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count);
-
-/* x[of[i]] for rows of `size` bytes, in the arena; NULL where memory cannot be had. */
-void *mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n) MR_WARN_UNUSED;
 
 /* Copies text without control characters, '/' where `no_slash`, and broken UTF-8, for which '_' stands;
  * NUL-terminated. */

@@ -77,7 +77,7 @@ names_of_formats(mr_ctx *ctx, bool writable)
 {
 	const char *names = "";
 
-	for (size_t i = 0; i < FORMATS && names; i++)
+	for (size_t i = 0; i < FORMATS; i++)
 		if (!writable || formats[i].write)
 			names = mr_format(ctx, "%s%s%s", names, *names ? ", " : "", formats[i].name);
 	return names;
@@ -130,8 +130,7 @@ mr_format_stem(mr_ctx *ctx, const char *path)
 			break;
 		}
 	name = mr_alloc(ctx, bytes + 1, 1);
-	if (name &&
-	    (mr_clean_name(name, file, bytes, true) == 0 || !strcmp(name, ".") || !strcmp(name, "..")))
+	if (mr_clean_name(name, file, bytes, true) == 0 || !strcmp(name, ".") || !strcmp(name, ".."))
 		return "model"; /* no frame can be called so */
 	return name;
 }

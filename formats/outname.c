@@ -1,68 +1,48 @@
 /* A pattern is checked first, then filled in. */
 #include "formats/outname.h"
 
+#include "base/text.h"
+
 #include <strings.h>
 #include <sys/stat.h>
 
-/* Reads "%05d" from behind the per cent: its width, and the first byte behind it; NULL where it is none. */
-static const char *
-number_format(const char *s, int *width)
+/* What a per cent and the letters behind it stand for; false where that is nothing. */
+static bool
+put_part(mr_text *name, const char **at, const char *frame, uint64_t number)
 {
-	int w = 0;
+	const char *s = *at + 1;
+	int width = *s == '0' && s[1] >= '1' && s[1] <= '9' ? s[1] - '0' : 0;
 
-	if (*s == '0') {
-		s++;
-		if (*s < '1' || *s > '9')
-			return NULL;
-		w = *s++ - '0';
-	}
-	*width = w;
-	return *s == 'd' ? s + 1 : NULL;
-}
-
-/* What is left of a name without folders. */
-static char *
-file_part(mr_ctx *ctx, const char *frame)
-{
-	char *name = mr_format(ctx, "%s", frame);
-
-	for (char *s = name; s && *s; s++)
-		if (*s == '/')
-			*s = '_';
-	return name;
+	s += width ? 2 : 0;
+	*at = s + 1;
+	if (*s == 'd')
+		mr_text_add(name, "%0*llu", width, (unsigned long long)number);
+	else if (*s == '%' && !width)
+		mr_text_add(name, "%%");
+	else if (*s == 's' && !width)
+		for (; *frame; frame++)
+			mr_text_add(name, "%c", *frame == '/' ? '_' : *frame);
+	else
+		return false;
+	return true;
 }
 
 mr_status
 mr_outname(mr_ctx *ctx, const char *pattern, const char *frame, uint64_t number, char **name)
 {
-	char *made = mr_format(ctx, "%s", ""), *file = file_part(ctx, frame);
+	mr_text made = { .ctx = ctx };
 
-	for (const char *s = pattern; made && *s;) {
+	mr_text_add(&made, "%s", ""); /* not NULL */
+	for (const char *s = pattern; *s;) {
 		size_t plain = strcspn(s, "%");
-		const char *after;
-		int width;
-
-		made = mr_format(ctx, "%s%.*s", made, (int)plain, s);
+		mr_text_bytes(&made, s, plain);
 		s += plain;
-		if (!made || !*s)
-			break;
-		if (s[1] == '%') {
-			made = mr_format(ctx, "%s%%", made);
-			s += 2;
-		} else if (s[1] == 's') {
-			made = mr_format(ctx, "%s%s", made, file);
-			s += 2;
-		} else if ((after = number_format(s + 1, &width))) {
-			made = mr_format(ctx, "%s%0*llu", made, width, (unsigned long long)number);
-			s = after;
-		} else {
+		if (*s && !put_part(&made, &s, frame, number))
 			return mr_fail(
 			    ctx, MR_EUSAGE, "%s: only %%s, %%d, %%03d and %%%% are known in a name", pattern);
-		}
 	}
-	if (made && !strcmp(made, "-") && strcmp(pattern, "-") != 0)
-		made = mr_format(ctx, "./-"); /* a frame of that name is no standard output */
-	*name = made;
+	/* a frame called - is no standard output */
+	*name = !strcmp(made.s, "-") && strcmp(pattern, "-") != 0 ? mr_format(ctx, "./-") : made.s;
 	return MR_OK;
 }
 

@@ -211,16 +211,14 @@ choose_face_properties(ply *f, element *e)
 	}
 }
 
-/* Those of vertices come first, whatever the order of the elements. */
 static void
 choose_properties(ply *f)
 {
-	for (size_t i = 0; i < f->elements; i++)
-		if (f->element[i].kind == VERTEX)
-			choose_vertex_properties(f, &f->element[i]);
-	for (size_t i = 0; i < f->elements; i++)
-		if (f->element[i].kind == FACE)
-			choose_face_properties(f, &f->element[i]);
+	for (element *e = f->element; e < f->element + f->elements; e++)
+		if (e->kind == VERTEX)
+			choose_vertex_properties(f, e);
+		else if (e->kind == FACE)
+			choose_face_properties(f, e);
 }
 
 static mr_status
