@@ -3,7 +3,7 @@
 
 #include "base/utf8.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 /* Where the fields of a header stand. */
 enum {
@@ -206,7 +206,7 @@ checksum(const unsigned char header[MR_HEADER], const void *payload, size_t stor
 
 	memcpy(h, header, MR_HEADER);
 	store(h + CRC, 4, 0);
-	return (uint32_t)crc32_z(crc32_z(0, h, MR_HEADER), payload, stored);
+	return libdeflate_crc32(libdeflate_crc32(0, h, MR_HEADER), payload, stored);
 }
 
 void
