@@ -21,7 +21,7 @@ typedef struct crowd {
 static bool
 turns_against(const mr_ring *r)
 {
-	const float less = 0.1f; /* for each face */
+	const float less = 0.15f; /* for each face */
 	mr_float4 then2 = r->then * r->then, now2 = r->now * r->now;
 	float was2 = then2[0] + then2[1] + then2[2], is2 = now2[0] + now2[1] + now2[2];
 
@@ -320,8 +320,7 @@ look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
 	uint32_t *near_harm, *far_harm;
 
 	keep_faces(ctx, c, t, list_faces(ctx, c, t));
-	if (getenv("CROWD"))
-		fprintf(stderr, "crowd %zu\n", c->now.nf);
+	fprintf(stderr, "crowd %zu\n", c->now.nf);
 	near_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	far_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	count_folds(ctx, c, near_harm, &harm->folds);
