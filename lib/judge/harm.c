@@ -320,7 +320,6 @@ look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
 	uint32_t *near_harm, *far_harm;
 
 	keep_faces(ctx, c, t, list_faces(ctx, c, t));
-	fprintf(stderr, "crowd %zu\n", c->now.nf);
 	near_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	far_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	count_folds(ctx, c, near_harm, &harm->folds);
