@@ -47,7 +47,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_wrap_result, folded_edges),
 	CMD_COUNTED(mr_wrap_result, intersecting_pairs),
 	CMD_COUNTED(mr_wrap_result, unreached),
-	CMD_COUNTED(mr_wrap_result, loops),
 	CMD_COUNTED(mr_wrap_result, openings),
 	CMD_COUNTED(mr_wrap_result, holes),
 	{ 0 },

@@ -545,7 +545,7 @@ typedef struct mr_wrap_result {
 	double sampling;         /* distance of the places */
 	size_t resolution, iterations, faces, folded_edges, intersecting_pairs;
 	size_t unreached;              /* places beyond five such distances, outliers too */
-	size_t loops, openings, holes; /* of the boundary; left open; closed */
+	size_t openings, holes; /* left open; closed */
 	mr_gaps gaps;
 	mr_volume_result volume;
 } mr_wrap_result;

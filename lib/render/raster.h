@@ -25,7 +25,7 @@ typedef struct mr_subject {
 } mr_subject;
 
 /*
- * Draws the subject over what the image shows; wire: with its edges.  Workspace: about 50 bytes a pixel,
+ * Draws the subject over what the image shows; wire: with its edges.  Workspace: about 30 bytes a pixel,
  * 50 a vertex and 20 a face, released.
  */
 void mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image);

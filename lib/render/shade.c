@@ -20,7 +20,6 @@ typedef struct gathered {
 typedef struct shading {
 	const mr_raster_view *v;
 	mr_creases creases;
-	gathered *pixel;
 	double linear[256];   /* of an sRGB value */
 	uint8_t srgb[LEVELS]; /* of a linear value, in LEVELS steps */
 } shading;
@@ -256,8 +255,21 @@ shade_point_sample(const shading *s, size_t at, size_t x, size_t y, gathered *g)
 	gather(g, color, n, 0, mr_vec(0, 0, 0));
 }
 
+/* The pixel, over what is behind it. */
 static void
-gather_rows(void *arg, size_t begin, size_t end)
+put_pixel(const shading *s, const gathered *g, mr_rgb *pixel)
+{
+	const double all = SAMPLES * SAMPLES;
+	mr_v3 behind = to_linear(s, *pixel);
+	double rest = 1 - g->share / all;
+
+	if (g->share > 0)
+		*pixel = (mr_rgb){ to_srgb(s, g->r / all + rest * behind.x),
+			to_srgb(s, g->g / all + rest * behind.y), to_srgb(s, g->b / all + rest * behind.z) };
+}
+
+static void
+shade_rows(void *arg, size_t begin, size_t end)
 {
 	const shading *s = arg;
 	const mr_raster_view *v = s->v;
@@ -266,36 +278,18 @@ gather_rows(void *arg, size_t begin, size_t end)
 
 	for (size_t y = begin; y < end; y++) {
 		for (size_t x = 0; x < width; x++) {
-			gathered *g = &s->pixel[y * width + x];
-			*g = (gathered){ 0 };
+			gathered g = { 0 };
 			for (size_t k = 0; k < n * n; k++) {
 				size_t sx = x * n + k % n, sy = y * n + k / n, at = sy * v->w + sx;
 				if (v->item[at] == MR_NONE)
 					continue;
 				if (v->subject->mesh.nf)
-					shade_face_sample(s, &f, at, sx, sy, g);
+					shade_face_sample(s, &f, at, sx, sy, &g);
 				else
-					shade_point_sample(s, at, sx, sy, g);
+					shade_point_sample(s, at, sx, sy, &g);
 			}
+			put_pixel(s, &g, &v->image->pixel[y * width + x]);
 		}
-	}
-}
-
-static void
-finish_rows(void *arg, size_t begin, size_t end)
-{
-	const shading *s = arg;
-	const mr_image *image = s->v->image;
-	const double all = SAMPLES * SAMPLES;
-
-	for (size_t i = begin * image->width; i < end * image->width; i++) {
-		const gathered *g = &s->pixel[i];
-		mr_v3 behind = to_linear(s, image->pixel[i]);
-		double rest = 1 - g->share / all;
-		if (g->share == 0)
-			continue;
-		image->pixel[i] = (mr_rgb){ to_srgb(s, g->r / all + rest * behind.x),
-			to_srgb(s, g->g / all + rest * behind.y), to_srgb(s, g->b / all + rest * behind.z) };
 	}
 }
 
@@ -303,16 +297,13 @@ void
 mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 {
 	enum { ROWS = 8 };
-	size_t pixels = v->image->width * v->image->height;
 	shading s = { .v = v };
 	mr_incidence around;
 
-	s.pixel = MR_NEW(ctx, pixels, gathered);
 	prepare_tables(&s);
 	if (v->subject->mesh.nf) {
 		mr_incidence_build(ctx, &v->subject->mesh, &around);
 		mr_creases_find(ctx, &v->subject->mesh, &around, &s.creases);
 	}
-	mr_parallel(ctx, v->image->height, ROWS, gather_rows, &s);
-	mr_parallel(ctx, v->image->height, ROWS, finish_rows, &s);
+	mr_parallel(ctx, v->image->height, ROWS, shade_rows, &s);
 }

@@ -4,19 +4,6 @@
 
 #include "volume/parts.h"
 
-enum { NEAREST = 16, LINKS = 8 };
-
-/* The planes of a cloud that encloses nothing. */
-static mr_status
-flat_planes(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, mr_volume_cloud *s)
-{
-	size_t k = n < of->neighbours ? n : of->neighbours;
-
-	*s = (mr_volume_cloud){ .p = place, .n = n };
-	return mr_cloud_planes(
-	    ctx, place, n, k, k - 1 < LINKS ? k - 1 : LINKS, of->neighbours <= NEAREST, &s->plane);
-}
-
 /* By directions, and where a part has none, as without them. */
 static mr_status
 orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, bool flat)
@@ -46,7 +33,8 @@ mr_places_normals(
 	if (n < 3 || dimensions < 2)
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu distinct points%s have no normals", n, n < 3 ? "" : " on a line");
-	MR_TRY(flat ? flat_planes(ctx, place, n, of, &s) : mr_volume_samples(ctx, place, n, of, 1, &s));
+	s = (mr_volume_cloud){ .p = place, .n = n };
+	MR_TRY(flat ? mr_volume_planes(ctx, of, &s) : mr_volume_samples(ctx, place, n, of, 1, &s));
 	if (toward || flat)
 		MR_TRY(orient_toward(ctx, &s, toward, flat));
 	else

@@ -29,6 +29,10 @@ enum { DEPTHS = 3 };
 mr_status mr_volume_samples(
     mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share, mr_volume_cloud *s);
 
+/* The planes of the places in s, of as many neighbours as it takes to see a surface through the noise, and
+ * how far these are apart. */
+mr_status mr_volume_planes(mr_ctx *ctx, const mr_sampling *of, mr_volume_cloud *s);
+
 /* Gives normals the signs by which they point out of what the points enclose.  volume.c */
 mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
 

@@ -23,9 +23,8 @@ check(mr_ctx *ctx, const mr_volume_cloud *s, size_t n)
 	return MR_OK;
 }
 
-/* Planes of as many neighbours as it takes to see a surface through the noise. */
-static mr_status
-find_planes(mr_ctx *ctx, const mr_sampling *of, mr_volume_cloud *s)
+mr_status
+mr_volume_planes(mr_ctx *ctx, const mr_sampling *of, mr_volume_cloud *s)
 {
 	size_t near = s->n < of->neighbours ? s->n : of->neighbours;
 	double area;
@@ -82,8 +81,6 @@ thin_out(mr_volume_cloud *s, double share, mr_sampling *of)
 		of->neighbours = NEAREST;
 }
 
-/* Of the diagonal: spacings that the grid tells. */
-
 mr_status
 mr_volume_samples(
     mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share, mr_volume_cloud *s)
@@ -104,7 +101,7 @@ mr_volume_samples(
 				n, s->n));
 		MR_TRY(check(ctx, s, n));
 	}
-	MR_TRY(find_planes(ctx, &of, s));
+	MR_TRY(mr_volume_planes(ctx, &of, s));
 	s->box = mr_box_of(s->p, s->n);
 	limit_areas(ctx, s);
 	return MR_OK;

@@ -81,21 +81,20 @@ set_grid(mr_box box, double step, mr_grid *g, size_t *levels)
 	g->origin = mr_sub(centre, half);
 }
 
-static size_t
-cells_along(mr_box box, double step)
+static double
+longest_side(mr_box box)
 {
 	mr_v3 size = mr_sub(box.max, box.min);
 
-	return (size_t)ceil(fmax(size.x, fmax(size.y, size.z)) / step);
+	return fmax(size.x, fmax(size.y, size.z));
 }
 
 /* As fine as the sampling, as far as memory in proportion to the n points of the cloud allows. */
 static void
 choose_grid(mr_box box, double spacing, size_t n, size_t cells, mr_grid *g, size_t *levels)
 {
-	mr_v3 size = mr_sub(box.max, box.min);
-	double longest = fmax(size.x, fmax(size.y, size.z));
-	double step = fmax(longest / CELLS_MOST, fmin(CELL * spacing, longest / CELLS_LEAST));
+	double longest = longest_side(box),
+	       step = fmax(longest / CELLS_MOST, fmin(CELL * spacing, longest / CELLS_LEAST));
 	size_t most = n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : n * NODES_PER_POINT;
 
 	set_grid(box, cells ? longest / (double)cells : step, g, levels);
@@ -193,7 +192,7 @@ measure_across(void *arg, size_t begin, size_t end)
 	const across *a = arg;
 
 	for (size_t i = begin; i < end; i++)
-		a->out[i] = across_at(a, i);
+		a->out[i] = across_at(a, i * a->v->s.n / a->some);
 }
 
 /* value: how much more of the flood, 1 - u, there is on a normal's side than behind it; out: what of it is on
@@ -287,15 +286,6 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 	return MR_OK;
 }
 
-static void
-measure_rise(void *arg, size_t begin, size_t end)
-{
-	const across *a = arg;
-
-	for (size_t i = begin; i < end; i++)
-		a->out[i] = -across_at(a, i * a->v->s.n / a->some) / 2;
-}
-
 /*
  * Half of what the indicator rises by across the surface.  Over thin parts it never does, and beside an open
  * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
@@ -311,8 +301,8 @@ half_rise(mr_ctx *ctx, const volume *v, const float *u, double *half)
 
 	*half = 0;
 	for (int reach = 1; reach <= 3; reach++) {
-		mr_parallel(ctx, m, GRAIN, measure_rise, &(across){ v, u, rise, reach, m });
-		*half = fmax(*half, mr_kth(rise, m, m / 2));
+		mr_parallel(ctx, m, GRAIN, measure_across, &(across){ v, u, rise, reach, m });
+		*half = fmax(*half, -mr_kth(rise, m, m - 1 - m / 2) / 2);
 	}
 	for (size_t i = 0; i < m; i++)
 		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
@@ -326,7 +316,7 @@ turn_over(mr_ctx *ctx, volume *v, const float *u)
 {
 	size_t turned = 0;
 
-	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, 0 });
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, v->s.n });
 	for (size_t i = 0; i < v->s.n; i++)
 		if (v->value[i] > 0 && !v->seen[i]) {
 			v->s.plane.normal[i] = mr_mul(-1, v->s.plane.normal[i]);
@@ -555,7 +545,7 @@ report_sides(mr_ctx *ctx, volume *v, const float *u)
 	double half;
 
 	half_rise(ctx, v, u, &half);
-	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, 0 });
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, v->s.n });
 	for (size_t i = v->s.n; i-- > 0;)
 		if (-v->value[i] < HARDLY * 2 * half) {
 			unsure++;
@@ -607,7 +597,7 @@ report(mr_ctx *ctx, const volume *v, const mr_mesh *m)
 	r.spacing = v->s.spacing;
 	r.noise = v->s.noise;
 	r.cell = v->grid[0].step;
-	r.grid = cells_along(v->s.box, r.cell);
+	r.grid = (size_t)ceil(longest_side(v->s.box) / r.cell);
 	r.nodes = mr_grid_nodes(&v->grid[0]);
 	r.inside = mr_mesh_volume(ctx, m) / ((double)r.nodes * r.cell * r.cell * r.cell);
 	return r;

@@ -193,19 +193,6 @@ draw_back(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_mesh *m)
 	return MR_OK;
 }
 
-static void
-count_loops(mr_ctx *ctx, const mr_dyn *d, size_t *loops)
-{
-	uint32_t *set = mr_sets_new(ctx, d->nv);
-
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (d->twin[h] == MR_NONE)
-			mr_sets_join(set, d->v[h], mr_dyn_to(d, h));
-	*loops = 0;
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		*loops += d->twin[h] == MR_NONE && set[d->v[h]] == d->v[h];
-}
-
 /* The vertices of the rim to the middle between themselves and their neighbours along it. */
 static mr_status
 smooth_rim(mr_ctx *ctx, mr_mesh *m)
@@ -256,13 +243,6 @@ mr_wrap_settle_open(
 }
 
 mr_status
-mr_wrap_assess_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
-{
-	count_loops(ctx, &w->d, &w->lids.loops);
-	return mr_wrap_assess(ctx, cloud, w);
-}
-
-mr_status
 mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w)
 {
 	mr_mesh m = mr_dyn_view(&w->d, "control");
@@ -274,5 +254,5 @@ mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_
 	if (w->lids.openings == 0)
 		return MR_OK;
 	MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, &w->d));
-	return mr_wrap_assess_open(ctx, cloud, w);
+	return mr_wrap_assess(ctx, cloud, w);
 }

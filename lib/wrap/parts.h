@@ -87,7 +87,6 @@ typedef struct mr_wrap_lids {
 	double width;    /* of the widest of them, in spacings */
 	mr_v3 at;        /* its middle */
 	bool flickers;   /* the points hardly support what they do not leave open: none is cut out */
-	size_t loops;    /* of the boundary */
 } mr_wrap_lids;
 
 /* Spacings: openings that are wider stay open. */
@@ -109,16 +108,13 @@ mr_status mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w);
 mr_status mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
 
 /* Cuts out of m, near the points, what spans an opening of them, by MR_LIDS_AUTO or _NONE, and adds to lids
- * what was found, but for the loops.  flickering: not where support flickers. */
+ * what was found.  flickering: not where support flickers. */
 mr_status mr_wrap_cut(
     mr_ctx *ctx, const mr_wrap_cloud *cloud, int how, bool flickering, mr_mesh *m, mr_wrap_lids *lids);
 
 /* d of m, open, by remeshing it and settling it on the points. */
 mr_status mr_wrap_settle_open(
     mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_mesh *m, mr_dyn *d);
-
-/* The same as mr_wrap_assess, and counts the boundary loops. */
-mr_status mr_wrap_assess_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w);
 
 /* Cuts what the options say out of w, closed, and settles the rest. */
 mr_status mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);

@@ -228,5 +228,5 @@ mr_wrap_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, co
 	MR_TRY(mr_wrap_cut(ctx, cloud, o->lids, false, &m, lids));
 	if (lids->openings > openings)
 		MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, &w->d));
-	return mr_wrap_assess_open(ctx, cloud, w);
+	return mr_wrap_assess(ctx, cloud, w);
 }

@@ -188,7 +188,6 @@ put_result(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_re
 	r.sampling = cloud->spacing;
 	r.gaps = c->cover.gaps;
 	r.unreached = c->cover.unreached;
-	r.loops = c->lids.loops;
 	r.openings = c->lids.openings;
 	r.holes = c->lids.holes;
 	r.faces = c->d.nf;

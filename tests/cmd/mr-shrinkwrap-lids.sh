@@ -6,7 +6,7 @@ stats() {
 	python3 -c '
 import json
 s = json.loads(open("stats.json").readline())
-print("method", s["method"], "loops", s["loops"], "openings", s["openings"], "holes", s["holes"])'
+print("method", s["method"], "openings", s["openings"], "holes", s["holes"])'
 }
 rim() { # the boundary of mesh is within a sampling distance of the points on the mean, and everywhere within three
 	mr-export -l points -f xyz - <"$1" >points.xyz
