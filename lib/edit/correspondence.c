@@ -245,10 +245,23 @@ mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_in
 	label_vertices(ctx, mesh, &c->mesh_inc, &c->lifted, inc, source, c->label);
 }
 
+/* Whether q is over the inside of a face, not all but a line, and where. */
 static bool
-is_within(mr_v3 bary)
+is_over(const mr_mesh *m, uint32_t face, mr_v3 q, mr_place *at)
 {
-	return bary.x > 0 && bary.y > 0 && bary.z > 0;
+	const double thin = 1e-8;
+	const uint32_t *v = m->t[face].v;
+	mr_v3 b = mr_sub(m->p[v[1]], m->p[v[0]]), c = mr_sub(m->p[v[2]], m->p[v[0]]),
+	      d = mr_sub(q, m->p[v[0]]);
+	double bb = mr_norm2(b), bc = mr_dot(b, c), cc = mr_norm2(c), bd = mr_dot(b, d), cd = mr_dot(c, d);
+	double det = bb * cc - bc * bc, y = cc * bd - bc * cd, z = bb * cd - bc * bd;
+
+	if (!(y > 0 && z > 0 && y + z < det && det > thin * bb * cc))
+		return false;
+	y /= det;
+	z /= det;
+	*at = (mr_place){ face, { 1 - y - z, y, z } };
+	return true;
 }
 
 mr_place
@@ -259,7 +272,10 @@ mr_correspond_near(const mr_correspondence *c, const mr_mesh *base, size_t i)
 
 	if (v == MR_NONE)
 		return near.at;
-	for (size_t j = c->inc->start[v]; j < c->inc->start[v + 1] && !is_within(near.at.bary); j++) {
+	for (size_t j = c->inc->start[v]; j < c->inc->start[v + 1]; j++)
+		if (is_over(base, c->inc->face[j], c->mesh->p[i], &near.at))
+			return near.at;
+	for (size_t j = c->inc->start[v]; j < c->inc->start[v + 1]; j++) {
 		mr_closest n = mr_face_closest(base, c->inc->face[j], c->mesh->p[i]);
 		if (n.dist2 < near.dist2)
 			near = n;

@@ -305,6 +305,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 		.height = MR_NEW(ctx, n, double) };
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
+	mr_box box = mr_mesh_box(mesh);
 	mr_incidence inc;
 	mr_detail found;
 
@@ -314,14 +315,14 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
 	mr_incidence_build(ctx, base, &inc);
 	mr_vertex_normals(ctx, base, &inc, normal);
-	e.ground = (mr_ground){ { base, normal }, &inc, mr_mesh_tolerance(mesh, 1e-14) };
+	e.ground = (mr_ground){ { base, normal }, &inc, mr_box_tolerance(box, 1e-14) };
 	find_all_feet(ctx, source, &e);
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
 	found = (mr_detail){ n, { e.face, e.bary }, e.height, all_sound(&e) ? NULL : e.offset, base->p,
 		NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
 	if (result)
-		*result = report(&e, mr_mesh_diagonal(mesh));
+		*result = report(&e, mr_box_diagonal(box));
 	*d = found;
 	mr_mark_release(ctx, mark);
 	return MR_OK;

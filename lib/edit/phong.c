@@ -38,26 +38,31 @@ mr_phong_frame(const mr_phong *s, mr_place at)
 	return (mr_tangent_frame){ n, t1, mr_cross(n, t1) };
 }
 
+/* a without its part along the unit vector n. */
+static mr_v3
+across(mr_v3 a, mr_v3 n)
+{
+	return mr_axpy(-mr_dot(a, n), n, a);
+}
+
+/*
+ * With a, b the edges across the normal, c, d what becomes of it along them, and W the matrix with W a = c
+ * and W b = d, the eigenvalues of its symmetric part by trace, determinant and what is not symmetric.
+ */
 double
 mr_phong_curvature(const mr_phong *s, mr_place at)
 {
 	const uint32_t *v = s->m->t[at.face].v;
-	mr_v3 raw = mr_bary_point(at.bary, s->normal[v[0]], s->normal[v[1]], s->normal[v[2]]);
-	mr_tangent_frame f = mr_phong_frame(s, at);
-	double length = mr_norm(raw), e[2][2], m[2][2], w[2][2], det, mean, half;
+	mr_v3 raw = mr_bary_point(at.bary, s->normal[v[0]], s->normal[v[1]], s->normal[v[2]]),
+	      n = mr_unit(raw);
+	mr_v3 a = across(mr_sub(s->m->p[v[1]], s->m->p[v[0]]), n);
+	mr_v3 b = across(mr_sub(s->m->p[v[2]], s->m->p[v[0]]), n);
+	mr_v3 c = across(mr_sub(s->normal[v[1]], s->normal[v[0]]), n);
+	mr_v3 d = across(mr_sub(s->normal[v[2]], s->normal[v[0]]), n);
+	double length = mr_norm(raw), area = length * mr_dot(n, mr_cross(a, b));
+	double half = (mr_dot(n, mr_cross(c, b)) + mr_dot(n, mr_cross(a, d))) / (2 * area);
+	double skew = (mr_dot(a, d) - mr_dot(b, c)) / (2 * area);
+	double det = mr_dot(n, mr_cross(c, d)) / (length * area);
 
-	for (int k = 0; k < 2; k++) {
-		mr_v3 edge = mr_sub(s->m->p[v[k + 1]], s->m->p[v[0]]);
-		mr_v3 turn = mr_sub(s->normal[v[k + 1]], s->normal[v[0]]);
-		e[0][k] = mr_dot(edge, f.t1), e[1][k] = mr_dot(edge, f.t2);
-		m[0][k] = mr_dot(turn, f.t1), m[1][k] = mr_dot(turn, f.t2);
-	}
-	det = length * (e[0][0] * e[1][1] - e[0][1] * e[1][0]);
-	for (int i = 0; i < 2; i++) { /* W = m e^-1 / length */
-		w[i][0] = (m[i][0] * e[1][1] - m[i][1] * e[1][0]) / det;
-		w[i][1] = (m[i][1] * e[0][0] - m[i][0] * e[0][1]) / det;
-	}
-	mean = 0.5 * (w[0][0] + w[1][1]);
-	half = hypot(0.5 * (w[0][0] - w[1][1]), 0.5 * (w[0][1] + w[1][0]));
-	return det > 0 || det < 0 ? fabs(mean) + half : INFINITY;
+	return area > 0 || area < 0 ? fabs(half) + sqrt(fmax(0, half * half + skew * skew - det)) : INFINITY;
 }
