@@ -1,6 +1,6 @@
 /*
  * Stanford PLY, read: G. Turk, The PLY polygon file format, 1994.  Text and both byte orders, properties of
- * any type in any order, lists.  Numbers of vertices and faces that are nothing to us are
+ * any type in any order, lists, triangle strips.  Numbers of vertices and faces that are nothing to us are
  * kept under their names; other lists and elements are passed over.
  */
 #include "formats/format.h"
@@ -24,7 +24,7 @@ typedef struct property {
 	size_t kept; /* of a face's: its number from 1 among the properties of the builder; 0: none of them */
 } property;
 
-typedef enum kind { OTHER, VERTEX, FACE, KINDS } kind;
+typedef enum kind { OTHER, VERTEX, FACE, STRIPS, KINDS } kind;
 
 typedef struct element {
 	kind kind;
@@ -125,7 +125,7 @@ header_property(ply *f, mr_scan *line)
 	}
 	MR_TRY(header_type(f, line, &p.value));
 	MR_TRY(header_word(f, line, "a property lacks its name", &w, &n));
-	p.role = e->kind == FACE && p.list ? role_of(w, n) : NONE;
+	p.role = e->kind >= FACE && p.list ? role_of(w, n) : NONE;
 	p.name = mr_clean_copy(f->ctx, w, n);
 	if (has(e, p.role))
 		p.role = NONE; /* the first of a name counts */
@@ -139,7 +139,7 @@ header_property(ply *f, mr_scan *line)
 static mr_status
 header_element(ply *f, mr_scan *line)
 {
-	static const char *const kinds[KINDS] = { "", "vertex", "face" };
+	static const char *const kinds[KINDS] = { "", "vertex", "face", "tristrips" };
 	element e = { 0 };
 	const char *w;
 	size_t n;
@@ -350,8 +350,9 @@ pass_list(ply *f, const property *p)
 
 /* ---- faces ---- */
 
+/* A list of indices; -1 ends a strip. */
 static mr_status
-read_indices(ply *f, const property *p)
+read_indices(ply *f, const property *p, bool strips)
 {
 	size_t n = 0, size = types[p->value].bytes;
 
@@ -376,7 +377,9 @@ read_indices(ply *f, const property *p)
 			x = (double)at;
 		} else
 			MR_TRY(next_value(f, p->value, &x));
-		if (x >= 0 && x < (double)f->b.m.nv && x == floor(x))
+		if (strips && x == -1)
+			f->indices[i] = MR_NONE;
+		else if (x >= 0 && x < (double)f->b.m.nv && x == floor(x))
 			f->indices[i] = (uint32_t)x;
 		else
 			return mr_scan_fail(&f->text, where, "vertex %.17g of %zu", x, f->b.m.nv);
@@ -417,6 +420,26 @@ places_of(ply *f, corner_list *l, const uint32_t **places)
 	l->had = l->count;
 }
 
+/* The triangles of strips; those that name a vertex twice only join strips. */
+static void
+add_strips(ply *f)
+{
+	const uint32_t *s = f->indices;
+	size_t length = 0;
+
+	for (size_t i = 0; i < f->indices_count; i++) {
+		bool odd;
+		uint32_t t[3];
+		length = s[i] == MR_NONE ? 0 : length + 1;
+		if (length < 3)
+			continue;
+		odd = (length & 1) == 0; /* every other one is turned over */
+		t[0] = s[i - 2 + odd], t[1] = s[i - 1 - odd], t[2] = s[i];
+		if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+			mr_build_face(&f->b, t, NULL, NULL, 3);
+	}
+}
+
 static void
 add_face(ply *f)
 {
@@ -445,7 +468,7 @@ read_value(ply *f, const element *e, uint64_t row, size_t i)
 	const property *p = &e->property[i];
 
 	if (p->role == INDICES)
-		return read_indices(f, p);
+		return read_indices(f, p, e->kind == STRIPS);
 	if (p->role == UVS)
 		return read_corners(f, p, &f->uv);
 	if (p->list)
@@ -497,7 +520,7 @@ begin_element(ply *f, const element *e)
 		return mr_scan_fail(&f->text, here(f), "element %s has no list of vertex_indices", e->name);
 	if (e->rows && !f->vertices)
 		return mr_scan_fail(&f->text, here(f), "element %s before the vertices is not read", e->name);
-	return mr_build_reserve(&f->b, e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
+	return mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
 }
 
 static mr_status
@@ -512,6 +535,8 @@ read_element(ply *f, const element *e)
 			MR_TRY(put_vertex(f, where));
 		else if (e->kind == FACE)
 			add_face(f);
+		else if (e->kind == STRIPS)
+			add_strips(f);
 		if (f->b.faces > faces)
 			keep_row(f, e, faces);
 	}

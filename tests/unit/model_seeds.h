@@ -62,6 +62,17 @@ static const char las_seed[227 + 2 * 26] = { 'L', 'A', 'S',
 	[131] = REAL_ONE, [139] = REAL_ONE, [147] = REAL_ONE, [227] = LE32(10), LE32(20), LE32(30), [247] = 0,
 	1, 0, 2, 0, 3, [253] = LE32(11), LE32(21), LE32(31) };
 
+static const char strips_seed[] =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty "
+    "float y\nproperty float z\nelement tristrips 1\nproperty list int int "
+    "vertex_indices\nend_header\n"
+    "\0\0\0\0\0\0\0\0\0\0\0\0"
+    "\0\0\x80\x3f\0\0\0\0\0\0\0\0"
+    "\0\0\0\0\0\0\x80\x3f\0\0\0\0"
+    "\0\0\x80\x3f\0\0\x80\x3f\0\0\0\0"
+    "\x08\0\0\0"
+    "\0\0\0\0\x01\0\0\0\x02\0\0\0\x03\0\0\0\xff\xff\xff\xff\0\0\0\0\x01\0\0\0\x02\0\0";
+
 static const char pcd_seed[] =
     "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nDATA "
     "binary\n\0\0\x80\x3f\0\0\0\0\0\0\0";
@@ -111,6 +122,7 @@ static const seed seeds[] = {
 	    "5 0 1 2 3 4 10 0 0 1 0 1 1 0 1 0.5 0.5 0 1 0 2 9\n"
 	    "3 0 2 4 6 0 0 1 0 nan nan 9 0 0 1 0 0 1 0 1 0 0 0 0 8\n",
 	    0, 5, 4 },
+	{ NULL, strips_seed, sizeof strips_seed, 4, 3 },
 	{ NULL,
 	    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
 	    "0\nendloop\nendfacet\nendsolid a\nsolid\nfacet normal nan nan nan\nouter loop\nvertex -0 0 "
