@@ -7,7 +7,7 @@
 static const double SHARP = 2.5;   /* total curvature within an edge length that makes a tip */
 static const double SPACING = 1.5; /* of two tips, in edge lengths */
 
-enum { MOST = 1024, SLOTS = 4 * MOST }; /* vertices looked at around one; of a power of two slots */
+enum { MOST = 1024 }; /* vertices looked at around one */
 
 typedef struct search {
 	const mr_dyn *d;
@@ -40,28 +40,20 @@ defect_body(void *arg, size_t begin, size_t end)
 		w->defect[v] = w->d->kind[v] == MR_SMOOTH ? angle_defect(w->d, v) : 0;
 }
 
-/* The vertices gathered around one, and a hash set of them: a slot is taken where its stamp is `now`. */
+/* The vertices gathered around one: those whose stamp is `now`. */
 typedef struct crowd {
-	uint32_t list[MOST];
-	uint32_t slot[SLOTS], stamp[SLOTS], now;
+	uint32_t list[MOST], now;
 	size_t n;
+	uint32_t *stamp; /* of all */
 } crowd;
 
 /* Adds v where it is not in yet and there is room. */
 static void
 join_crowd(crowd *c, uint32_t v)
 {
-	uint32_t i = v * 2654435769u >> 20 & (SLOTS - 1);
-
-	while (c->stamp[i] == c->now) {
-		if (c->slot[i] == v)
-			return;
-		i = (i + 1) & (SLOTS - 1);
-	}
-	if (c->n == MOST)
+	if (c->n == MOST || c->stamp[v] == c->now)
 		return;
-	c->stamp[i] = c->now;
-	c->slot[i] = v;
+	c->stamp[v] = c->now;
 	c->list[c->n++] = v;
 }
 
@@ -83,22 +75,17 @@ gather(const mr_dyn *d, uint32_t v, double radius, crowd *c)
 	}
 }
 
-static void
-total_body(void *arg, size_t begin, size_t end)
+static double
+total_around(const search *w, uint32_t v, crowd *c)
 {
-	search *w = arg;
-	crowd c = { .now = 0 };
+	double total = 0;
 
-	for (uint32_t v = (uint32_t)begin; v < end; v++) {
-		double total = 0;
-		w->total[v] = 0;
-		if (w->defect[v] <= 0)
-			continue;
-		gather(w->d, v, mr_remesh_length(w->s, w->d, v), &c);
-		for (size_t i = 0; i < c.n; i++)
-			total += w->defect[c.list[i]];
-		w->total[v] = total > SHARP ? total : 0;
-	}
+	if (w->defect[v] <= 0)
+		return 0;
+	gather(w->d, v, mr_remesh_length(w->s, w->d, v), c);
+	for (size_t i = 0; i < c->n; i++)
+		total += w->defect[c->list[i]];
+	return total > SHARP ? total : 0;
 }
 
 /* True where no vertex within the spacing has more; the lower number wins among equals. */
@@ -119,10 +106,11 @@ mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	search w = { d, s, MR_NEW(ctx, d->nv, double), MR_NEW(ctx, d->nv, double) };
-	crowd c = { .now = 0 };
+	crowd c = { .stamp = MR_NEW_ZERO(ctx, d->nv, uint32_t) };
 
 	mr_parallel(ctx, d->nv, 1024, defect_body, &w);
-	mr_parallel(ctx, d->nv, 1024, total_body, &w);
+	for (uint32_t v = 0; v < d->nv; v++)
+		w.total[v] = total_around(&w, v, &c);
 	*pinned = 0;
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (w.total[v] > 0 && is_summit(&w, v, &c)) {
