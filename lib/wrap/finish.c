@@ -25,6 +25,15 @@ mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o)
 }
 
 mr_status
+mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d)
+{
+	mr_topology topo;
+
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	return mr_dyn_build(ctx, m, &topo, 180, d);
+}
+
+mr_status
 mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;

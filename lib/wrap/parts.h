@@ -31,11 +31,7 @@ typedef struct mr_wrap_cloud {
 mr_status mr_wrap_cloud_open(
     mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, mr_wrap_cloud *cloud);
 
-/* The surface of a box of edges[0] x edges[1] x edges[2] edges, each at least 1, oriented outward; in the
- * arena. */
-mr_status mr_wrap_box(mr_ctx *ctx, mr_box box, const size_t edges[3], mr_mesh *out);
-
-/* The same as a mr_dyn without curves. */
+/* A mesh as a mr_dyn without curves. */
 mr_status mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d);
 
 /* v <- v + alpha (q - v), q the point nearest to v; guarded: by mr_move_unfolded. */

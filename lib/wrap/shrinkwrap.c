@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "measure/gaps.h"
 #include "remesh/unfold.h"
+#include "shape/shape.h"
 #include "volume/volume.h"
 #include "wrap/parts.h"
 
@@ -36,15 +37,21 @@ pull(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool guarde
 	return MR_OK;
 }
 
-/* The cube around the box. */
-static mr_box
-cube_around(mr_box b)
+/* The cube around the box, of squares of two triangles, r of them along a side. */
+static mr_status
+make_cube(mr_ctx *ctx, mr_box box, size_t r, mr_mesh *cube)
 {
-	mr_v3 size = mr_sub(b.max, b.min), middle = mr_lerp(0.5, b.min, b.max);
-	double half = fmax(size.x, fmax(size.y, size.z)) / 2;
-	mr_v3 corner = mr_vec(half, half, half);
+	mr_make_opts o = MR_MAKE_DEFAULTS;
+	mr_v3 size = mr_sub(box.max, box.min), middle = mr_lerp(0.5, box.min, box.max), *p;
 
-	return (mr_box){ mr_sub(middle, corner), mr_add(middle, corner) };
+	o.solid = MR_CUBE;
+	o.vertices = 6 * r * r + 2;
+	MR_TRY(mr_solid_make(ctx, &o, cube));
+	p = MR_NEW(ctx, cube->nv, mr_v3);
+	for (size_t v = 0; v < cube->nv; v++)
+		p[v] = mr_axpy(fmax(size.x, fmax(size.y, size.z)) / 2, cube->p[v], middle);
+	cube->p = p;
+	return MR_OK;
 }
 
 /* So many edges a side that the cube has half as many vertices again as there are points: 6 r^2 = 1.5 n. */
@@ -65,7 +72,7 @@ wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool g
 
 	c->found.method = MR_WRAP_CUBE;
 	c->found.resolution = r;
-	MR_TRY(mr_wrap_box(ctx, cube_around(cloud->box), (size_t[]){ r, r, r }, &cube));
+	MR_TRY(make_cube(ctx, cloud->box, r, &cube));
 	MR_TRY(mr_wrap_dyn(ctx, &cube, &c->d));
 	MR_TRY(pull(ctx, cloud, o, guarded, c));
 	mr_unfold(&c->d);
