@@ -695,7 +695,7 @@ typedef struct mr_box { mr_v3 min, max; } mr_box;
  * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
  *
  *	euler       vertices that a face uses, less edges, plus faces
- *	genus       summed over components, boundary loops capped; oriented manifolds only
+ *	genus       summed over components, boundary loops capped; MR_UNKNOWN of other than oriented manifolds
  *	boundary    edges of one face; loops of them, two that touch at a vertex are two
  *	non-manifold edges of three faces or more; vertices whose faces form more than one fan
  *	inconsistent edges of two faces that run along it in the same direction
@@ -706,7 +706,8 @@ typedef struct mr_box { mr_v3 min, max; } mr_box;
  */
 typedef struct mr_census {
 	size_t edges, components;
-	int64_t euler, genus;
+	int64_t euler;
+	size_t genus;
 	bool oriented, manifold; /* no inconsistent edge; no non-manifold edge nor vertex */
 	size_t boundary_edges, boundary_loops;
 	size_t nonmanifold_edges, nonmanifold_vertices, inconsistent_edges;

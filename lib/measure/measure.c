@@ -172,7 +172,7 @@ count_degenerate(const mr_mesh *m, mr_census *c)
 void
 mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *out)
 {
-	mr_census c = { 0 };
+	mr_census c = { .genus = MR_UNKNOWN };
 	size_t used = 0, proper = 0;
 
 	for (size_t f = 0; f < m->nf; f++)
@@ -186,7 +186,7 @@ mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *
 	c.oriented = c.inconsistent_edges == 0;
 	c.manifold = c.nonmanifold_edges == 0 && c.nonmanifold_vertices == 0;
 	if (c.oriented && c.manifold) /* euler = 2 components - 2 genus - loops */
-		c.genus = (2 * (int64_t)c.components - (int64_t)c.boundary_loops - c.euler) / 2;
+		c.genus = (size_t)((2 * (int64_t)c.components - (int64_t)c.boundary_loops - c.euler) / 2);
 	*out = c;
 }
 

@@ -109,20 +109,18 @@ plain_layer(const report *r, const char *layer, const char *sentence)
 static mr_status
 report_surface(const report *r, const char *layer)
 {
-	bool intersections = !r->opts->skip_intersections;
 	mr_surface_figures s;
 	mr_mesh m;
 
 	MR_TRY(mr_layer_mesh(r->ctx, r->f, layer, &m));
-	MR_TRY(mr_measure_surface(r->ctx, &m, intersections, &s));
+	MR_TRY(mr_measure_surface(r->ctx, &m, !r->opts->skip_intersections, &s));
 	if (r->opts->json) {
 		mr_text_add(r->t, "\"kind\":\"surface\",\"vertices\":%zu,\"faces\":%zu", m.nv, m.nf);
-		mr_report_surface_json(r->t, &s, intersections);
-		return MR_OK;
+	} else {
+		mr_text_add(r->t, "  %s: %zu vertices, %zu faces\n", layer, m.nv, m.nf);
+		columns(r, layer);
 	}
-	mr_text_add(r->t, "  %s: %zu vertices, %zu faces, %zu edges\n", layer, m.nv, m.nf, s.census.edges);
-	columns(r, layer);
-	mr_report_surface_text(r->t, &s, intersections);
+	mr_report_surface(r->t, &s, r->opts->json);
 	return MR_OK;
 }
 
@@ -134,12 +132,11 @@ report_cloud(const report *r, const char *layer)
 	MR_TRY(mr_measure_cloud(r->ctx, r->f, layer, &c));
 	if (r->opts->json) {
 		mr_text_add(r->t, "\"kind\":\"cloud\",\"points\":%zu", c.points);
-		mr_report_cloud_json(r->t, &c);
-		return MR_OK;
+	} else {
+		mr_text_add(r->t, "  %s: %zu points\n", layer, c.points);
+		columns(r, layer);
 	}
-	mr_text_add(r->t, "  %s: %zu points\n", layer, c.points);
-	columns(r, layer);
-	mr_report_cloud_text(r->t, &c);
+	mr_report_cloud(r->t, &c, r->opts->json);
 	return MR_OK;
 }
 

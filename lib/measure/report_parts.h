@@ -8,12 +8,8 @@
 
 #include "measure/report.h"
 
-/* intersections: whether they were looked for. */
-void mr_report_surface_text(mr_text *t, const mr_surface_figures *s, bool intersections);
-void mr_report_cloud_text(mr_text *t, const mr_cloud_figures *c);
-
-/* Members of an object, with a comma before each. */
-void mr_report_surface_json(mr_text *t, const mr_surface_figures *s, bool intersections);
-void mr_report_cloud_json(mr_text *t, const mr_cloud_figures *c);
+/* json: members of an object, with a comma before each; else lines. */
+void mr_report_surface(mr_text *t, const mr_surface_figures *s, bool json);
+void mr_report_cloud(mr_text *t, const mr_cloud_figures *c, bool json);
 
 #endif

@@ -17,6 +17,13 @@ keep_interior(const mr_mesh *m, const mr_edges *edges, bool *boundary, double *a
 	return n;
 }
 
+/* What is rounding of a ratio is zero. */
+static double
+tidy(double ratio)
+{
+	return fabs(ratio) < 1e-12 ? 0 : ratio;
+}
+
 static void
 measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenness *out)
 {
@@ -31,8 +38,8 @@ measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenne
 	s = mr_spread_of(area, n);
 	for (size_t i = 0; i < n; i++)
 		error += fabs(area[i] - s.mean);
-	*out = (mr_evenness){ n, s.mean, n ? error / ((double)n * s.mean) : NAN,
-		s.deviation / s.mean * (s.deviation / s.mean) };
+	*out = (mr_evenness){ n, s.mean, n ? tidy(error / ((double)n * s.mean)) : NAN,
+		tidy(s.deviation / s.mean * (s.deviation / s.mean)) };
 	mr_mark_release(ctx, mark);
 }
 

@@ -69,7 +69,7 @@ mr-make boxes --genus 9 -n 4000 | mr-remesh --vertices 12 2>&1 >/dev/null | sed 
 echo 'four faces that meet at acute edges'
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >corner.off
 for length in 10% 5% 2%; do
-	mr-remesh -q -L $length corner.off | mr-info -l base | sed -n '/base:/,$p' | awk '/area/ { area = $2 > 1.8 && $2 < 2.366 } /flaws/ { print area, $2 }'
+	mr-remesh -q -L $length corner.off | mr-info -l base | sed -n '/base:/,$p' | awk '/flaws/ { flaws = $2 } /  size/ { print ($5 + 0 > 1.8 && $5 + 0 < 2.366), flaws }'
 done
 
 echo 'a rod of CAD, of faces as long as it'

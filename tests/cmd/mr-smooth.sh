@@ -6,7 +6,7 @@ radius() { # of the layer base: mean distance from the origin over that of the m
 	done | awk '{ r[NR] = $1 } END { print r[2] / r[1] }'
 }
 mr-make sphere -n 10000 -o sphere.mrs
-mr-info sphere.mrs | awk '/edge lengths/ { print $6 + 0 }' >edge # mean h, of a unit sphere
+mr-info sphere.mrs | sed -n 's/.*edge_mean \([^,]*\),.*/\1/p' >edge # mean h, of a unit sphere
 for t in 10 100; do
 	mr-smooth --plain -t $t sphere.mrs -o out.mrs # p' = p / (1 + 2 t h^2)
 	radius out.mrs | awk -v t=$t -v h="$(cat edge)" '{ x = 1 / (1 + 2 * t * h * h); e = $1 / x - 1
@@ -16,7 +16,7 @@ for t in 10 100; do
 done
 
 # No body passes through itself, however long: a rod keeps 1 / 1.04^2 of its volume, a ball 1 / 1.08^3.
-mr-smooth -t 1e6 --stats stats.json sphere.mrs | mr-info -l base | awk '/volume/ { e = $4 / 4.18879 * 1.08 ^ 3 - 1
+mr-smooth -t 1e6 --stats stats.json sphere.mrs | mr-info -l base | awk '/volume/ { e = $7 / 4.18879 * 1.08 ^ 3 - 1
 	print "ball", (e * e < 1e-4 ? "ok" : "bad " e) }'
 grep -o '"bounded":[0-9]*' stats.json
 mr-smooth --plain -t 1e3 sphere.mrs -o out.mrs # says so
@@ -26,7 +26,7 @@ mr-transform --scale 0.02 --translate 3,0,0 sphere.mrs | mr-cat --append sphere.
 mr-make sphere -n 5000 --noise 0.02 -o noisy.mrs
 for m in implicit taubin; do
 	mr-smooth -m $m -t 3 noisy.mrs -o out.mrs
-	mr-info -l base out.mrs | awk -v m=$m '$1 == "area" { print m, ($2 > 12 && $2 < 12.7 ? "smooth" : "bad " $2) }'
+	mr-info -l base out.mrs | awk -v m=$m '$1 == "size" { print m, ($5 + 0 > 12 && $5 + 0 < 12.7 ? "smooth" : "bad " $5) }'
 	mr-smooth -m $m -t 3 -j 1 noisy.mrs | cmp - out.mrs && echo same for -j 1
 done
 
