@@ -1,6 +1,7 @@
 /*
  * Object File Format (Geomview): the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, says what a
  * vertex has besides its position; -f off reads a file without it, too.
+ * Binary files are little-endian, as the Polygon Mesh Processing library writes them.
  */
 #include "formats/format.h"
 
@@ -46,6 +47,10 @@ keyword(off *f)
 	if (t.p < t.end && !mr_is_blank(*t.p) && *t.p != '\n' && *t.p != '#' && !mr_is_digit(*t.p))
 		return false;
 	f->text.p = t.p;
+	mr_skip_blanks(&t);
+	f->text.binary = take(&t, "BINARY\n");
+	if (f->text.binary)
+		f->text.p = t.p;
 	return true;
 }
 
@@ -178,6 +183,79 @@ read_counts(off *f)
 	return MR_OK;
 }
 
+/* The next `words` of a binary file, passed over; MR_EFORMAT where it ends before them. */
+static mr_status
+words(off *f, uint64_t words, const unsigned char **p)
+{
+	size_t left = (size_t)(f->text.end - f->text.p);
+
+	if (words > left / 4)
+		return mr_scan_fail(&f->text, f->text.p, "%llu numbers cannot be in %zu bytes",
+		    (unsigned long long)words, left);
+	*p = (const unsigned char *)f->text.p;
+	f->text.p += 4 * words;
+	return MR_OK;
+}
+
+static mr_status
+binary_face(off *f)
+{
+	const unsigned char *p = NULL;
+	size_t n;
+
+	MR_TRY(words(f, 1, &p));
+	n = mr_load32(p, false);
+	MR_TRY(words(f, n, &p));
+	MR_RESERVE(f->ctx, f->corner, 0, n, &f->corner_room);
+	for (size_t k = 0; k < n; k++) {
+		f->corner[k] = mr_load32(p + 4 * k, false);
+		if (f->corner[k] >= f->nv)
+			return mr_scan_fail(&f->text, p, "vertex %u of %zu", f->corner[k], f->b.m.nv);
+	}
+	mr_build_face(&f->b, f->corner, NULL, NULL, n);
+	return MR_OK;
+}
+
+static mr_status
+read_binary(off *f)
+{
+	const size_t width = (f->normals ? 6u : 3u) + (f->colors ? 4u : 0u) + (f->texcoords ? 2u : 0u);
+	const unsigned char *p = NULL;
+	double x[MOST];
+
+	MR_TRY(words(f, 3, &p));
+	f->nv = mr_load32(p, false);
+	f->nf = mr_load32(p + 4, false);
+	MR_TRY(words(f, width * f->nv, &p));
+	MR_TRY(begin_vertices(f));
+	for (uint64_t i = 0; i < f->nv; i++, p += 4 * width) {
+		for (size_t k = 0; k < width; k++)
+			x[k] = mr_load_float(p + 4 * k, false);
+		if (!mr_finite(mr_rows_position(&f->rows, x)))
+			return mr_scan_fail(&f->text, p, "a coordinate is not finite");
+		mr_rows_put(&f->rows, x);
+	}
+	mr_rows_end(&f->rows);
+	for (uint64_t i = 0; i < f->nf; i++)
+		MR_TRY(binary_face(f));
+	return MR_OK;
+}
+
+static mr_status
+read_text(off *f)
+{
+	MR_TRY(read_counts(f));
+	MR_TRY(begin_vertices(f));
+	MR_TRY(mr_build_reserve(&f->b, f->nf < MR_NONE / 3 ? (size_t)f->nf : 0));
+	for (uint64_t i = 0; i < f->nv; i++)
+		MR_TRY(read_vertex(f));
+	mr_rows_end(&f->rows);
+	for (uint64_t i = 0; i < f->nf; i++)
+		MR_TRY(read_face(f));
+	mr_skip_comments(&f->text);
+	return MR_OK;
+}
+
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
@@ -185,15 +263,7 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 	f.rows.b = &f.b;
 	keyword(&f);
-	MR_TRY(read_counts(&f));
-	MR_TRY(begin_vertices(&f));
-	MR_TRY(mr_build_reserve(&f.b, f.nf < MR_NONE / 3 ? (size_t)f.nf : 0));
-	for (uint64_t i = 0; i < f.nv; i++)
-		MR_TRY(read_vertex(&f));
-	mr_rows_end(&f.rows);
-	for (uint64_t i = 0; i < f.nf; i++)
-		MR_TRY(read_face(&f));
-	mr_skip_comments(&f.text);
+	MR_TRY(f.text.binary ? read_binary(&f) : read_text(&f));
 	mr_scan_rest(&f.text);
 	mr_lost(ctx, NULL, f.face_colors, "colors of faces");
 	mr_lost(ctx, NULL, f.ignored, "numbers behind vertices");

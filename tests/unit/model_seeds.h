@@ -54,6 +54,7 @@ typedef struct seed {
 } seed;
 
 #define LE32(n)  (char)((n)&255), (char)((n) >> 8 & 255), (char)((n) >> 16 & 255), (char)((n) >> 24 & 255)
+#define ZEROS16  0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
 #define REAL_ONE 0, 0, 0, 0, 0, 0, (char)0xf0, 0x3f
 
 /* LAS 1.2, point format 2, two points: header of 227 bytes. */
@@ -61,6 +62,10 @@ static const char las_seed[227 + 2 * 26] = { 'L', 'A', 'S',
 	'F', [24] = 1, [25] = 2, [94] = (char)227, [96] = (char)227, [104] = 2, [105] = 26, [107] = 2,
 	[131] = REAL_ONE, [139] = REAL_ONE, [147] = REAL_ONE, [227] = LE32(10), LE32(20), LE32(30), [247] = 0,
 	1, 0, 2, 0, 3, [253] = LE32(11), LE32(21), LE32(31) };
+
+/* Little-endian, as some programs write it: one triangle, no number of colours. */
+static const char off_seed[] = { 'O', 'F', 'F', ' ', 'B', 'I', 'N', 'A', 'R', 'Y', '\n', LE32(3), LE32(1),
+	LE32(0), ZEROS16, LE32(0x3f800000), ZEROS16, LE32(3), LE32(0), LE32(1), LE32(2) };
 
 static const char strips_seed[] =
     "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty "
@@ -134,6 +139,7 @@ static const seed seeds[] = {
 	    "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 255 0 0\n1 0 0 0 0 1 0 255 0 255 1 0\n0 1 0 0 0 1 0 0 255 "
 	    "255 0 1\n3 0 1 2\n",
 	    0, 3, 1 },
+	{ NULL, off_seed, sizeof off_seed, 3, 1 },
 	{ NULL, "0 0 0\n1 0 0\n0 1 0\n", 0, 3, 0 },
 	{ NULL, "2\n0 0 0 10 1 2 3\n1 0 0 20 4 5 6\n", 0, 2, 0 },
 	{ NULL, "2\n0 0 0\n1 0 0\n0 0 1\n0 0 1\n", 0, 2, 0 },

@@ -379,7 +379,7 @@ refusals(void **state)
 	refused("", "OFF\n3 1 0\n0.000 0.000 0.000\n1.000 0.000 0.000\n", "line 5: a coordinate is missing");
 	refused("", "OFF\n999999999 1 0\n0 0 0\n", "line 2: 999999999 vertices and 1 faces cannot be");
 	refused("", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000 0 1 2\n", "line 6: a face of 4000000 corners");
-	refused("", "OFF BINARY\nabcdefghijklmnop", "line 1: the number of vertices is 'BINARY'");
+	refused("", "OFF BINARY\nabcdefghijklmnop", "byte 23: ");
 	refused("", "0 0 0\n1 2\n", "line 2: 2 columns, where line 1 has 3");
 	refused("", "0 0 0\n1 2 x\n", "line 2: 'x' is not a number");
 	refused("", "0 0 0\n1 2 nan\n", "line 2: a coordinate is not finite");
