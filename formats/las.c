@@ -14,41 +14,31 @@ static const struct {
 	{ 36, 30 }, { 38, 30 }, { 59, 0 }, { 67, 30 } };
 
 /* What a point has besides: the types are PLY's, `bits` of the first byte from the lowest.  Formats below 6
- * and the others keep them elsewhere (at; 0: they do not have it). */
+ * and the others keep them elsewhere.  in: a bit for each format that has them. */
 static const struct {
 	const char *name, *type;
+	unsigned in;
 	unsigned char at[2];
 	struct {
 		unsigned char shift, bits;
 	} part[2];
 } fields[] = {
-	{ "intensity", "ushort", { 12, 12 }, { { 0, 16 }, { 0, 16 } } },
-	{ "return_number", "uchar", { 14, 14 }, { { 0, 3 }, { 0, 4 } } },
-	{ "number_of_returns", "uchar", { 14, 14 }, { { 3, 3 }, { 4, 4 } } },
-	{ "scan_direction", "uchar", { 14, 15 }, { { 6, 1 }, { 6, 1 } } },
-	{ "edge_of_flight_line", "uchar", { 14, 15 }, { { 7, 1 }, { 7, 1 } } },
-	{ "classification", "uchar", { 15, 16 }, { { 0, 5 }, { 0, 8 } } },
-	{ "classification_flags", "uchar", { 15, 15 }, { { 5, 3 }, { 0, 4 } } },
-	{ "scanner_channel", "uchar", { 0, 15 }, { { 0, 0 }, { 4, 2 } } },
-	{ "scan_angle", "short", { 16, 18 }, { { 0, 8 }, { 0, 16 } } },
-	{ "user_data", "uchar", { 17, 17 }, { { 0, 8 }, { 0, 8 } } },
-	{ "point_source", "ushort", { 18, 20 }, { { 0, 16 }, { 0, 16 } } },
-	{ "gps_time", "double", { 20, 22 }, { { 0, 64 }, { 0, 64 } } },
-	{ "near_infrared", "ushort", { 0, 36 }, { { 0, 0 }, { 0, 16 } } },
+	{ "intensity", "ushort", 0x7ff, { 12, 12 }, { { 0, 16 }, { 0, 16 } } },
+	{ "return_number", "uchar", 0x7ff, { 14, 14 }, { { 0, 3 }, { 0, 4 } } },
+	{ "number_of_returns", "uchar", 0x7ff, { 14, 14 }, { { 3, 3 }, { 4, 4 } } },
+	{ "scan_direction", "uchar", 0x7ff, { 14, 15 }, { { 6, 1 }, { 6, 1 } } },
+	{ "edge_of_flight_line", "uchar", 0x7ff, { 14, 15 }, { { 7, 1 }, { 7, 1 } } },
+	{ "classification", "uchar", 0x7ff, { 15, 16 }, { { 0, 5 }, { 0, 8 } } },
+	{ "classification_flags", "uchar", 0x7ff, { 15, 15 }, { { 5, 3 }, { 0, 4 } } },
+	{ "scanner_channel", "uchar", 0x7c0, { 0, 15 }, { { 0, 0 }, { 4, 2 } } },
+	{ "scan_angle", "short", 0x7ff, { 16, 18 }, { { 0, 8 }, { 0, 16 } } },
+	{ "user_data", "uchar", 0x7ff, { 17, 17 }, { { 0, 8 }, { 0, 8 } } },
+	{ "point_source", "ushort", 0x7ff, { 18, 20 }, { { 0, 16 }, { 0, 16 } } },
+	{ "gps_time", "double", 0x7fa, { 20, 22 }, { { 0, 64 }, { 0, 64 } } },
+	{ "near_infrared", "ushort", 0x500, { 0, 36 }, { { 0, 0 }, { 0, 16 } } },
 };
 
 enum { FIELDS = sizeof fields / sizeof *fields };
-
-/* Whether points of the format have it. */
-static bool
-has_field(unsigned format, size_t i)
-{
-	if (!strcmp(fields[i].name, "gps_time") && (format == 0 || format == 2))
-		return false;
-	if (!strcmp(fields[i].name, "near_infrared") && format != 8 && format != 10)
-		return false;
-	return fields[i].at[format >= 6] > 0;
-}
 
 /* The field of the point at d. */
 static double
@@ -153,7 +143,7 @@ add_columns(const unsigned char *data, const las *l, mr_rows *r, bool told[FIELD
 	for (mr_role k = MR_RED; l->color && k <= MR_BLUE; k++)
 		mr_rows_add(r, k, "", 0, NULL);
 	for (size_t i = 0; i < FIELDS; i++) {
-		told[i] = has_field(l->format, i) && is_told(data, l, i);
+		told[i] = (fields[i].in >> l->format & 1) && is_told(data, l, i);
 		if (told[i])
 			mr_rows_add(r, MR_NO_ROLE, fields[i].name, strlen(fields[i].name), fields[i].type);
 	}

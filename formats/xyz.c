@@ -3,8 +3,7 @@
  * first row has one, else commas, else blanks.  Columns are told apart by names where there are any, else by
  * their number: 3 position; 6 normal, or colour where all are whole numbers of 0 to 255 and some beyond 1;
  * 7 intensity and colour, or colour and something; 9 and more colour and normal in either order.  Other
- * columns are properties.  A first line with one whole number is the number of points, behind which those of
- * another cloud may stand in the same way.
+ * columns are properties.  A first line with one whole number is the number of points.
  */
 #include "formats/format.h"
 
@@ -164,31 +163,42 @@ read_head(table *t)
 
 /* ---- rows ---- */
 
-/* The numbers of a row; NaN for words such as nan. */
+/* Goes on behind a number, or a word such as nan, and what parts it from the next; false where it is none. */
+static bool
+next_number(mr_scan *line, char separator, double *x)
+{
+	const char *w = line->p, *e = mr_real_read(w, line->end, x);
+
+	line->p = e ? e : w;
+	if (!e || !end_cell(line, separator)) {
+		line->p = w;
+		e = cell_end(line, separator);
+		if (!mr_word_not_finite(w, (size_t)(e - w), x))
+			return false;
+		line->p = e;
+		end_cell(line, separator);
+	}
+	mr_skip_blanks(line);
+	return true;
+}
+
+/* The numbers of a row. */
 static mr_status
 row_values(const table *t, mr_scan *line, double x[COLUMNS], size_t *count)
 {
 	const char *comment = memchr(line->p, '#', (size_t)(line->end - line->p));
 	char shown[MR_SHOWN];
-	size_t n = 0;
+	size_t n = 0, bytes;
 
 	line->end = comment && comment[-1] != '.' ? comment : line->end; /* 1.#INF is no 1 */
 	for (; line->p < line->end; n++) {
-		const char *w = line->p, *e = n < COLUMNS ? mr_real_read(w, line->end, &x[n]) : NULL;
 		if (n == COLUMNS)
-			return mr_scan_fail(&t->text, w, "more than %d columns", (int)COLUMNS);
-		line->p = e ? e : w;
-		if (!e || !end_cell(line, t->separator)) {
-			line->p = w;
-			e = line->p = cell_end(line, t->separator);
-			if (e == w)
-				return mr_scan_fail(&t->text, w, "column %zu is empty", n + 1);
-			if (!mr_word_not_finite(w, (size_t)(e - w), &x[n]))
-				return mr_scan_fail(&t->text, w, "'%s' is not a number",
-				    mr_word_shown(w, (size_t)(e - w), shown));
-			end_cell(line, t->separator);
-		}
-		mr_skip_blanks(line);
+			return mr_scan_fail(&t->text, line->p, "more than %d columns", (int)COLUMNS);
+		if (next_number(line, t->separator, &x[n]))
+			continue;
+		bytes = (size_t)(cell_end(line, t->separator) - line->p);
+		return mr_scan_fail(&t->text, line->p, "column %zu is '%s', not a number", n + 1,
+		    mr_word_shown(line->p, bytes, shown));
 	}
 	*count = n;
 	return MR_OK;
@@ -223,15 +233,10 @@ survey(table *t)
 {
 	mr_scan text = t->text, line;
 	double x[COLUMNS] = { 0 };
-	uint64_t more;
 	size_t n = 0;
 
 	while (next_row(&text, &line)) {
 		const mr_scan row = line;
-		if (t->counted && t->rows == t->count && is_one_count(row, &more)) { /* of another cloud */
-			t->count += more;
-			continue;
-		}
 		if (t->rows == 0)
 			t->separator = separator_of(&line);
 		MR_TRY(row_values(t, &line, x, &n));
@@ -285,15 +290,6 @@ could_be_color(const table *t, size_t i)
 	return most > 1 && most <= 255 && are_whole(t, i);
 }
 
-/* Values of 0 to 1, not all of them 0. */
-static bool
-are_shares(const table *t, size_t i)
-{
-	double most = most_of(t, i);
-
-	return most > 0 && most <= 1;
-}
-
 /* Nearly all rows that are not zero are of length 1. */
 static bool
 are_unit(const table *t, size_t i)
@@ -319,10 +315,8 @@ guess_pair(table *t)
 	size_t normal = behind ? 6 : 3, color = behind ? 3 : 6;
 
 	assign(t, normal, MR_NX);
-	if (could_be_color(t, color) || (are_unit(t, normal) && are_shares(t, color)))
+	if (could_be_color(t, color))
 		assign(t, color, MR_RED);
-	if (!could_be_color(t, color))
-		t->points.shades[0].full = 1;
 }
 
 /* Intensity and colour, of a PTS, or colour and something. */
@@ -330,14 +324,13 @@ static void
 guess_seven(table *t)
 {
 	bool first = could_be_color(t, 3), last = could_be_color(t, 4) || (t->counted && most_of(t, 4) == 0);
+	bool either = first && last && !t->counted;
 
-	if (first && last && !t->counted)
+	if (either)
 		mr_tell(
 		    t->ctx, MR_GUESSED, 1, "columns 4 to 6 are read as colors: columns 5 to 7 could be, too");
-	if (last && (t->counted || !first))
-		assign(t, 4, MR_RED);
-	else if (first)
-		assign(t, 3, MR_RED);
+	if (first || last)
+		assign(t, last && !either ? 4 : 3, MR_RED);
 }
 
 static void
@@ -387,8 +380,6 @@ fill(table *t)
 	while (next_row(&text, &line)) {
 		const char *where = line.p;
 		MR_TRY(row_values(t, &line, x, &n));
-		if (n == 1) /* the count of another cloud */
-			continue;
 		if (!mr_finite(mr_rows_position(&t->points, x)))
 			return mr_scan_fail(&t->text, where, "a coordinate is not finite");
 		mr_rows_put(&t->points, x);

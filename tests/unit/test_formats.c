@@ -381,7 +381,7 @@ refusals(void **state)
 	refused("", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000 0 1 2\n", "line 6: a face of 4000000 corners");
 	refused("", "OFF BINARY\nabcdefghijklmnop", "byte 23: ");
 	refused("", "0 0 0\n1 2\n", "line 2: 2 columns, where line 1 has 3");
-	refused("", "0 0 0\n1 2 x\n", "line 2: 'x' is not a number");
+	refused("", "0 0 0\n1 2 x\n", "line 2: column 3 is 'x', not a number");
 	refused("", "0 0 0\n1 2 nan\n", "line 2: a coordinate is not finite");
 	refused("", "5\n0 0 0\n1 2 3\n", "ends after 2 of 5 points");
 }
