@@ -6,7 +6,8 @@
 
 #include "base/parallel.h"
 
-enum { COARSEST = 12, SWEEPS = 2, COARSEST_SWEEPS = 40, PIECE = 1 << 15, SLAB = 1 << 18 };
+/* ROW_MOST: nodes along an axis of 4096 cells, with margins, rounded up. */
+enum { COARSEST = 12, SWEEPS = 2, COARSEST_SWEEPS = 40, PIECE = 1 << 15, ROW_MOST = 1 << 13 };
 
 size_t
 mr_multigrid_levels(size_t cells)
@@ -36,8 +37,6 @@ void
 mr_multigrid_begin(
     mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, mr_grid_multigrid *m)
 {
-	size_t layer = n[0] * n[1];
-
 	m->levels = levels;
 	for (size_t i = 0; i < levels; i++) {
 		mr_grid_level *l = &m->level[i];
@@ -48,38 +47,22 @@ mr_multigrid_begin(
 		l->screen = !screened ? NULL : i == 0 ? l->b : MR_NEW_ZERO(ctx, nodes_of(l), float);
 		memset(l->u, 0, nodes_of(l) * sizeof *l->u);
 	}
-	m->slab = SLAB / layer < 4 ? 9 : 2 * (SLAB / layer / 2) + 1;
-	if (m->slab > n[2])
-		m->slab = n[2];
-	m->residual = MR_NEW(ctx, m->slab * layer, float);
 }
 
 /* A loop over the inner layers of a level. */
 typedef struct pass {
 	const mr_grid_level *fine, *coarse;
-	const float *from;
+	const float *from; /* NULL: the residuals of the finer level */
 	float *to;
 	float scale;
 	size_t colour;
 	float keep;
-	size_t first; /* layer of the loop */
-	size_t below; /* layers of the finer level below the first that `from` holds */
 } pass;
-
-/* Over `count` layers of a level from p->first on. */
-static void
-over_some(mr_ctx *ctx, const mr_grid_level *l, size_t count, mr_body body, pass *p)
-{
-	size_t layer = l->n[0] * l->n[1], grain = PIECE / layer + 1;
-
-	mr_parallel(ctx, count, grain, body, p);
-}
 
 static void
 over_layers(mr_ctx *ctx, const mr_grid_level *l, mr_body body, pass *p)
 {
-	p->first = 1;
-	over_some(ctx, l, l->n[2] - 2, body, p);
+	mr_parallel(ctx, l->n[2] - 2, PIECE / (l->n[0] * l->n[1]) + 1, body, p);
 }
 
 static void
@@ -121,55 +104,45 @@ relax(mr_ctx *ctx, const mr_grid_level *l, size_t sweeps)
 		over_layers(ctx, l, relax_layers, &(pass){ .fine = l, .colour = i & 1 });
 }
 
+/* line += weight times a row of the finer level, but for its ends. */
 static void
-residual_layers(void *arg, size_t begin, size_t end)
+add_row(const pass *p, size_t y, size_t z, float weight, float *line)
 {
-	const pass *p = arg;
 	const mr_grid_level *l = p->fine;
-	size_t up = l->n[0], far = l->n[0] * l->n[1];
+	size_t up = l->n[0], far = l->n[0] * l->n[1], row = z * far + y * up;
 
-	for (size_t z = begin; z < end; z++)
-		for (size_t y = 1; y + 1 < l->n[1]; y++) {
-			size_t row = (p->first + z) * far + y * up;
-			float *r = p->to + z * far + y * up;
-			for (size_t x = 1; x + 1 < l->n[0]; x++) {
-				size_t i = row + x;
-				r[x] = l->b[i] - (6 + (l->screen ? l->screen[i] : 0)) * l->u[i] +
-				       l->u[i - 1] + l->u[i + 1] + l->u[i - up] + l->u[i + up] +
-				       l->u[i - far] + l->u[i + far];
-			}
-		}
+	if (p->from) {
+		for (size_t x = 1; x + 1 < l->n[0]; x++)
+			line[x] += weight * p->from[row + x];
+		return;
+	}
+	for (size_t x = 1; x + 1 < l->n[0]; x++) {
+		size_t i = row + x;
+		line[x] += weight *
+		           (l->b[i] - (6 + (l->screen ? l->screen[i] : 0)) * l->u[i] + l->u[i - 1] +
+			       l->u[i + 1] + l->u[i - up] + l->u[i + up] + l->u[i - far] + l->u[i + far]);
+	}
 }
 
-/* (1 2 1) / 4 along x, then y, then z. */
-static float
-weighted(const float *f, size_t up, size_t far)
-{
-	static const float w[3] = { 0.25f, 0.5f, 0.25f };
-	float sum = 0;
-
-	for (size_t k = 0; k < 3; k++)
-		for (size_t j = 0; j < 3; j++) {
-			const float *row = f + k * far + j * up;
-			sum += w[k] * w[j] * (0.25f * (row[0] + row[2]) + 0.5f * row[1]);
-		}
-	return sum;
-}
-
+/* (1 2 1) / 4 along each axis. */
 static void
 restrict_layers(void *arg, size_t begin, size_t end)
 {
+	static const float w[3] = { 0.25f, 0.5f, 0.25f };
 	const pass *p = arg;
-	const mr_grid_level *f = p->fine, *c = p->coarse;
-	size_t up = f->n[0], far = f->n[0] * f->n[1];
+	const size_t *n = p->coarse->n;
+	float line[ROW_MOST];
 
-	for (size_t z = p->first + begin; z < p->first + end; z++)
-		for (size_t y = 1; y + 1 < c->n[1]; y++)
-			for (size_t x = 1; x + 1 < c->n[0]; x++)
-				p->to[(z * c->n[1] + y) * c->n[0] + x] =
-				    p->scale * weighted(p->from + (2 * z - 1 - p->below) * far +
-							    (2 * y - 1) * up + 2 * x - 1,
-						   up, far);
+	for (size_t z = begin + 1; z <= end; z++)
+		for (size_t y = 1; y + 1 < n[1]; y++) {
+			float *to = p->to + (z * n[1] + y) * n[0];
+			memset(line, 0, p->fine->n[0] * sizeof *line);
+			for (size_t k = 0; k < 9; k++)
+				add_row(p, 2 * y - 1 + k % 3, 2 * z - 1 + k / 3, w[k % 3] * w[k / 3], line);
+			for (size_t x = 1; x + 1 < n[0]; x++)
+				to[x] = p->scale *
+				        (0.25f * (line[2 * x - 1] + line[2 * x + 1]) + 0.5f * line[2 * x]);
+		}
 }
 
 void
@@ -214,29 +187,6 @@ mr_multigrid_prolong(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level
 	    &(pass){ .fine = fine, .coarse = coarse, .from = from, .to = to, .keep = keep, .scale = scale });
 }
 
-/* c->b = the residuals of l, around the nodes of c: of a slab of layers at a time. */
-static void
-restrict_residuals(mr_ctx *ctx, const mr_grid_multigrid *m, const mr_grid_level *l, const mr_grid_level *c)
-{
-	size_t most = (m->slab - 1) / 2;
-
-	for (size_t z = 1, count; z + 1 < c->n[2]; z += count) {
-		size_t below = 2 * z - 1;
-		count = c->n[2] - 1 - z < most ? c->n[2] - 1 - z : most;
-		over_some(ctx, l, 2 * count + 1, residual_layers,
-		    &(pass){ .fine = l, .to = m->residual, .first = below });
-		/* twice the step: four times the right side */
-		over_some(ctx, c, count, restrict_layers,
-		    &(pass){ .fine = l,
-			.coarse = c,
-			.from = m->residual,
-			.to = c->b,
-			.scale = 4,
-			.first = z,
-			.below = below });
-	}
-}
-
 static void
 cycle_from(mr_ctx *ctx, mr_grid_multigrid *m, size_t i)
 {
@@ -247,7 +197,7 @@ cycle_from(mr_ctx *ctx, mr_grid_multigrid *m, size_t i)
 		return;
 	}
 	relax(ctx, l, SWEEPS);
-	restrict_residuals(ctx, m, l, c);
+	mr_multigrid_restrict(ctx, l, c, NULL, c->b, 4); /* twice the step: four times the right side */
 	memset(c->u, 0, nodes_of(c) * sizeof *c->u);
 	cycle_from(ctx, m, i + 1);
 	mr_multigrid_prolong(ctx, l, c, c->u, l->u, 1, 1);

@@ -84,9 +84,8 @@ typedef struct mr_grid_level {
 } mr_grid_level;
 
 typedef struct mr_grid_multigrid {
-	size_t levels, slab; /* slab: layers of a level whose residuals are kept at a time */
+	size_t levels;
 	mr_grid_level level[LEVELS_MOST];
-	float *residual;
 } mr_grid_multigrid;
 
 /* Nodes along an axis for `cells` cells at least, so that coarser grids fit. */
@@ -106,7 +105,8 @@ void mr_multigrid_full(mr_ctx *ctx, mr_grid_multigrid *m);
 void mr_multigrid_prolong(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level *coarse,
     const float *from, float *to, float keep, float scale);
 
-/* to = the mean of the finer level's values around each inner node. */
+/* to = scale times the mean of the finer level's values, or where from is NULL of its residuals, around each
+ * inner node. */
 void mr_multigrid_restrict(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level *coarse,
     const float *from, float *to, float scale);
 

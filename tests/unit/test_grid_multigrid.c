@@ -170,7 +170,7 @@ static void
 waves_are_solved_on_any_grid(void **state)
 {
 	static const size_t sizes[][3] = { { 17, 17, 17 }, { 33, 33, 33 }, { 65, 65, 65 }, { 33, 65, 17 },
-		{ 97, 49, 25 }, { 257, 129, 33 } /* of which not all residuals are kept at a time */ };
+		{ 97, 49, 25 }, { 257, 129, 33 } };
 	static const int waves[][3] = { { 1, 1, 1 }, { 1, 2, 3 }, { 4, 3, 2 } };
 
 	(void)state;
