@@ -54,16 +54,10 @@ static const cmd_field figures[] = {
 
 static const cmd_field volume_figures[] = {
 	CMD_COUNTED(mr_volume_result, samples),
-	CMD_COUNTED(mr_volume_result, nodes),
 	CMD_COUNTED(mr_volume_result, sided),
 	CMD_MEASURED(mr_volume_result, spacing),
 	CMD_MEASURED(mr_volume_result, cell),
 	CMD_MEASURED(mr_volume_result, noise),
-	CMD_COUNTED(mr_volume_result, grid),
-	CMD_COUNTED(mr_volume_result, rounds),
-	CMD_COUNTED(mr_volume_result, turned),
-	CMD_MEASURED(mr_volume_result, level),
-	CMD_MEASURED(mr_volume_result, inside),
 	CMD_MEASURED(mr_volume_result, euler),
 	{ 0 },
 };

@@ -528,14 +528,10 @@ typedef struct mr_wrap_opts {
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
-	/* points that counted; of the grid; whose sides were used; 1: turned over */
-	size_t samples, nodes, sided, inward;
+	size_t samples, sided; /* points that counted; whose sides were used */
 	double spacing, cell;  /* side of the square that a point stands for; of a cell */
 	double noise;          /* squares of so many spacings show a surface: at least 1 */
-	size_t grid;           /* cells along the longest side of the points' box */
-	size_t rounds, turned; /* of the Poisson equation; normals that the first turned over */
-	double level, inside;  /* the indicator's value at the surface; share of the nodes */
-	size_t levels_alike; /* around it, of the same topology */
+	size_t levels_alike;   /* values of the indicator of the same topology */
 	double euler, euler_beside; /* Euler number; that of a level nearby which is not alike */
 } mr_volume_result;
 

@@ -81,19 +81,12 @@ set_grid(mr_box box, double step, mr_grid *g, size_t *levels)
 	g->origin = mr_sub(centre, half);
 }
 
-static double
-longest_side(mr_box box)
-{
-	mr_v3 size = mr_sub(box.max, box.min);
-
-	return fmax(size.x, fmax(size.y, size.z));
-}
-
 /* As fine as the sampling, as far as memory in proportion to the n points of the cloud allows. */
 static void
 choose_grid(mr_box box, double spacing, size_t n, size_t cells, mr_grid *g, size_t *levels)
 {
-	double longest = longest_side(box),
+	mr_v3 size = mr_sub(box.max, box.min);
+	double longest = fmax(size.x, fmax(size.y, size.z)),
 	       step = fmax(longest / CELLS_MOST, fmin(CELL * spacing, longest / CELLS_LEAST));
 	size_t most = n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : n * NODES_PER_POINT;
 
@@ -156,8 +149,7 @@ orient_by_sides(mr_ctx *ctx, volume *v)
 	size_t untold;
 
 	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
-	v->found.inward = turn_outward(&v->s);
-	if (v->found.inward)
+	if (turn_outward(&v->s))
 		mr_found(
 		    ctx, &(mr_finding){ .kind = MR_GUESSED,
 			     .layer = "points",
@@ -291,23 +283,23 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
  * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
  * median value at them.
  */
-static void
-half_rise(mr_ctx *ctx, const volume *v, const float *u, double *half)
+static double
+half_rise(mr_ctx *ctx, const volume *v, const float *u)
 {
 	enum { MOST = 10007 };
 	mr_mark mark = mr_mark_take(ctx);
 	size_t m = v->s.n < MOST ? v->s.n : MOST;
-	double *rise = MR_NEW(ctx, m, double);
+	double *rise = MR_NEW(ctx, m, double), half = 0;
 
-	*half = 0;
 	for (int reach = 1; reach <= 3; reach++) {
 		mr_parallel(ctx, m, GRAIN, measure_across, &(across){ v, u, rise, reach, m });
-		*half = fmax(*half, -mr_kth(rise, m, m - 1 - m / 2) / 2);
+		half = fmax(half, -mr_kth(rise, m, m - 1 - m / 2) / 2);
 	}
 	for (size_t i = 0; i < m; i++)
 		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
-	*half = fmax(*half, mr_kth(rise, m, m / 2));
+	half = fmax(half, mr_kth(rise, m, m / 2));
 	mr_mark_release(ctx, mark);
+	return half;
 }
 
 /* Turns the normals over along which the indicator u rises and whose side is not seen; how many. */
@@ -348,19 +340,11 @@ may_turn(const volume *v)
 static void
 settle(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 {
-	mr_volume_result *found = &v->found;
-	size_t turned;
-
-	for (size_t rounds = 0;;) {
+	for (size_t rounds = 0;; rounds++) {
 		spread_normals(ctx, v, m);
 		mr_multigrid_full(ctx, m);
-		found->rounds++;
-		if (rounds++ == ROUNDS_MOST || !may_turn(v))
-			return;
-		turned = turn_over(ctx, v, m->level[0].u);
-		if (found->rounds == 1)
-			found->turned = turned;
-		if ((double)turned <= TURNED_LEAST * (double)v->s.n)
+		if (rounds == ROUNDS_MOST || !may_turn(v) ||
+		    (double)turn_over(ctx, v, m->level[0].u) <= TURNED_LEAST * (double)v->s.n)
 			return;
 	}
 }
@@ -370,12 +354,10 @@ static void
 solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 {
 	size_t before = SIZE_MAX, turned;
-	double half;
 
-	v->found.rounds = 0;
 	settle(ctx, v, m);
 	for (int i = 0; i < PARTS_MOST && may_turn(v); i++) {
-		half_rise(ctx, v, m->level[0].u, &half);
+		double half = half_rise(ctx, v, m->level[0].u);
 		mr_volume_turn_parts(ctx, &v->s, &v->grid[0], m->level[0].u, 2 * half, &turned);
 		if (turned == 0 || turned >= before)
 			break;
@@ -448,19 +430,16 @@ spread_values(mr_ctx *ctx, const volume *v, const mr_walls *w, mr_grid_multigrid
 
 /* f = value wanted nearby - indicator, in place of the indicator: positive on the faces of the grid. */
 static mr_status
-make_level(mr_ctx *ctx, volume *v, const mr_walls *w, mr_grid_multigrid *m)
+make_level(mr_ctx *ctx, volume *v, const mr_walls *w, double half, mr_grid_multigrid *m)
 {
 	mr_grid_level *l = &m->level[0];
-	double half;
 	size_t nodes = mr_grid_nodes(&v->grid[0]);
 	float *c = l->b;
 
-	half_rise(ctx, v, l->u, &half);
 	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, l->u, v->value, 0, 0 });
 	if (!(half > 0))
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu points enclose nothing: no side of them is the inside", v->s.n);
-	v->found.level = half;
 	for (size_t i = 0; i < v->s.n; i++)
 		v->value[i] = fmax(LEVEL_LEAST * half, fmin(v->value[i], LEVEL_MOST * half));
 	spread_values(ctx, v, w, m, half);
@@ -505,12 +484,14 @@ static mr_status
 fill_field(mr_ctx *ctx, volume *v, const mr_walls *w, float *f, float *level)
 {
 	mr_grid_multigrid m;
+	double rise;
 
 	MR_TRY(v->side.toward ? orient_by_sides(ctx, v) : orient_by_flood(ctx, v, f));
 	mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m);
 	solve_indicator(ctx, v, &m);
-	MR_TRY(make_level(ctx, v, w, &m));
-	return mr_volume_level(ctx, w, &v->grid[0], f, v->found.level, level, &v->found);
+	rise = half_rise(ctx, v, f);
+	MR_TRY(make_level(ctx, v, w, rise, &m));
+	return mr_volume_level(ctx, w, &v->grid[0], f, rise, level, &v->found);
 }
 
 static void
@@ -542,9 +523,8 @@ report_sides(mr_ctx *ctx, volume *v, const float *u)
 {
 	static const double HARDLY = 0.25, SHARE = 0.03;
 	size_t unsure = 0, first = 0;
-	double half;
+	double half = half_rise(ctx, v, u);
 
-	half_rise(ctx, v, u, &half);
 	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, v->s.n });
 	for (size_t i = v->s.n; i-- > 0;)
 		if (-v->value[i] < HARDLY * 2 * half) {
@@ -588,21 +568,6 @@ mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 	return MR_OK;
 }
 
-static mr_volume_result
-report(mr_ctx *ctx, const volume *v, const mr_mesh *m)
-{
-	mr_volume_result r = v->found;
-
-	r.samples = v->s.n;
-	r.spacing = v->s.spacing;
-	r.noise = v->s.noise;
-	r.cell = v->grid[0].step;
-	r.grid = (size_t)ceil(longest_side(v->s.box) / r.cell);
-	r.nodes = mr_grid_nodes(&v->grid[0]);
-	r.inside = mr_mesh_volume(ctx, m) / ((double)r.nodes * r.cell * r.cell * r.cell);
-	return r;
-}
-
 /*
  * Whether sides that are given are worth more than those that the flood finds.  Of the true normals of 120
  * clouds those of four are not so good, whose bodies are thinner than their points are apart; at random half
@@ -628,7 +593,7 @@ take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *side
 	for (size_t i = 0; i < v->s.n; i++)
 		toward[i] = sides->toward[of[i]];
 	judged = mr_volume_judge(&v->s, toward);
-	v->found.sided = v->found.inward = 0;
+	v->found.sided = 0;
 	if (!are_consistent(&judged, sides->normals)) {
 		mr_found(ctx,
 		    &(mr_finding){ .kind = MR_GUESSED,
@@ -684,7 +649,11 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 		    v.s.n, v.grid[0].n[0], v.grid[0].n[1], v.grid[0].n[2]);
 	m.name = "volume";
 	*out = m;
+	v.found.samples = v.s.n;
+	v.found.spacing = v.s.spacing;
+	v.found.noise = v.s.noise;
+	v.found.cell = v.grid[0].step;
 	if (result)
-		*result = report(ctx, &v, &m);
+		*result = v.found;
 	return MR_OK;
 }
