@@ -37,7 +37,7 @@ typedef struct scene {
 /*
  * A kind of predicate.  fields: what stands after its colon, a letter each, with commas between: n number,
  * l length or share of the diagonal in %, f fraction, a axis, i whole number, c one from 1, s name, v file of
- * vertices; what follows a ? may be left out.
+ * vertices.
  */
 typedef struct predicate {
 	const char *name, *fields, *form;                      /* form: the fields in words */
@@ -148,10 +148,6 @@ parse_fields(mr_ctx *ctx, const char *text, term *t)
 	const char *at = text;
 
 	for (const char *field = p->fields; *field; field++) {
-		if (*field == '?' && !*at)
-			break;
-		if (*field == '?')
-			continue;
 		if ((field > p->fields && *at++ != ',') || !take_field(ctx, field, &at, &numbers, &wholes, t))
 			return mr_fail(ctx, MR_EUSAGE, "'%s' is not %s", text, p->form);
 	}
@@ -274,11 +270,11 @@ eval_rings(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 
 /* Sets in[v] for the part of this number, or where that is MR_NONE, of vertex `of`. */
 static mr_status
-take_part(mr_ctx *ctx, const scene *s, double distance, uint32_t part, size_t of, bool *in)
+take_part(mr_ctx *ctx, const scene *s, uint32_t part, size_t of, bool *in)
 {
 	mr_connected c;
 
-	MR_TRY(mr_connected_of(ctx, s->f, s->m, distance, &c));
+	MR_TRY(mr_connected_of(ctx, s->f, s->m, 0, &c));
 	if (part != MR_NONE && part >= c.parts)
 		return mr_fail(
 		    ctx, MR_EMESH, "there is no part %u: %s has %zu", part + 1, s->m->name, c.parts);
@@ -290,10 +286,7 @@ take_part(mr_ctx *ctx, const scene *s, double distance, uint32_t part, size_t of
 static mr_status
 eval_part(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 {
-	if (t->length > 0 && s->m->nf)
-		return mr_fail(
-		    ctx, MR_EMESH, "%s has faces, which connect it: a distance is of points", s->m->name);
-	return take_part(ctx, s, length_of(s, t), t->whole[0] - 1, 0, in);
+	return take_part(ctx, s, t->whole[0] - 1, 0, in);
 }
 
 /* Every vertex that no earlier one of these is within the distance of. */
@@ -351,7 +344,7 @@ eval_component(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 			nearest = v;
 		}
 	}
-	return take_part(ctx, s, 0, MR_NONE, nearest, in);
+	return take_part(ctx, s, MR_NONE, nearest, in);
 }
 
 /* The index of the line of `names` that is `name`; MR_NONE where there is none. */
@@ -441,8 +434,7 @@ static const predicate predicates[] = {
 	{ "boundary", "", "", NULL, eval_boundary, true },
 	{ "grow", "i", "a number of rings", NULL, eval_grow, true },
 	{ "vertices", "v", "the name of a file", NULL, eval_list, false },
-	{ "part", "c?l", "the number of a part, from 1, or one, a comma and a distance", NULL, eval_part,
-	    false },
+	{ "part", "c", "the number of a part, from 1", NULL, eval_part, false },
 	{ "spaced", "l", "a distance", NULL, eval_spaced, false },
 	{ "column", "snn", "a name and two bounds, with commas between them", NULL, eval_column, false },
 	{ 0 },

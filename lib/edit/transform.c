@@ -394,28 +394,6 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 	return MR_OK;
 }
 
-/* MR_EMESH where a layer that goes alone would leave behind a pose that no surface shows yet, or handles are
- * posed, whose maps are of where they are. */
-static mr_status
-check_poses(mr_ctx *ctx, mr_frame *f, const char *layer)
-{
-	static const char *const posed[] = { "base", "control" };
-	bool is;
-
-	if (mr_layer_has(f, "handles", "transform"))
-		return mr_advise(ctx, MR_SOLVE_FIRST, mr_fail(ctx, MR_EMESH, "handles are posed"));
-	if (!layer || !strcmp(layer, "points"))
-		return MR_OK;
-	for (size_t i = 0; i < 2; i++) {
-		MR_TRY(mr_layer_is_posed(ctx, f, posed[i], &is));
-		if (is)
-			return mr_fail(ctx, MR_EMESH,
-			    "%s cannot go alone: %s has moved, and mesh has not followed it", layer,
-			    posed[i]);
-	}
-	return MR_OK;
-}
-
 /* A layer that goes alone is no more where the others have it. */
 static void
 cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
@@ -442,7 +420,8 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 	c = change_of(&t);
 	if (layer && !mr_frame_has_layer(f, layer))
 		return mr_layer_missing(ctx, f, layer, layer);
-	MR_TRY(check_poses(ctx, f, layer));
+	if (mr_layer_has(f, "handles", "transform")) /* whose maps are of where they are */
+		return mr_advise(ctx, MR_SOLVE_FIRST, mr_fail(ctx, MR_EMESH, "handles are posed"));
 	if (layer)
 		cut_loose(ctx, f, layer);
 	for (size_t i = 0; i < 2; i++)

@@ -30,8 +30,6 @@ mr-make sphere --points 400 | mr-transform --scale 0.5 --translate 2.2,0,0 | mr-
 left --keep box:-1,-1,-1,1,1,0 ball.mrs
 left --keep halfspace:1,0,0,0.5+not:above:z,0.5 ball.mrs
 left --keep part:2 balls.mrs
-left --keep part:1,30% balls.mrs
-left --keep part:2,0.5 balls.mrs
 left --drop component:2.2,0,0 balls.mrs
 left --keep spaced:0.2 ball.mrs
 left --keep spaced:0.2 out.mrs
@@ -91,7 +89,6 @@ refused --keep nowhere plane.mrs
 refused --keep part:0 plane.mrs
 refused --keep part:x plane.mrs
 refused --keep part:1,0 plane.mrs
-refused --keep part:1,1x plane.mrs
 refused --keep halfspace:0,0,0,1 plane.mrs
 refused --keep spaced: plane.mrs
 refused --keep spaced:-1 plane.mrs
@@ -103,7 +100,6 @@ refused --keep column:region,2,1 plane.mrs
 refused --keep column:region,0,1 plane.mrs
 refused --keep column:position,0,1 plane.mrs
 refused --keep part:2 plane.mrs
-refused --keep part:1,0.5 plane.mrs
 refused --drop all plane.mrs
 refused --keep sphere:0,0,0,0.1 plane.mrs
 for needs in geodesic:0,0,0,1 rings:1,1 group:a boundary grow:1; do

@@ -78,8 +78,6 @@ refused --scale 1,2,1 rest.mrs
 refused --scale 1,2,1 levels.mrs
 refused --scale -1 levels.mrs
 refused --scale 2 posed.mrs
-refused -l mesh --scale 2 solved.mrs
-refused -l base --scale 2 solved.mrs
 mr-decode -q solved.mrs | mr-transform -q -l base --scale 2 | mr-info | grep -c '^  base'
 refused -l nowhere --scale 2 model.mrs
 
