@@ -25,7 +25,7 @@ static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offs
 	"encoded", "before", "rest", "response", "texcoord", "corner_texcoord", "polygon", NULL };
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
-	"base.encoded", "base.response", "control.response", "handles.transform", NULL };
+	"base.encoded", "base.response", "handles.transform", NULL };
 
 /* Texts that name the values of other columns. */
 static const char *const texts[] = { "groups", "objects", "materials", NULL };
@@ -60,14 +60,6 @@ is_posable(const mr_frame *f, const char *layers)
 {
 	return is_listed("mesh", layers) && is_listed("base", layers) && mr_layer_has(f, "mesh", "region") &&
 	       mr_layer_has(f, "mesh", "detail_height") && mr_layer_has(f, "base", "response");
-}
-
-/* The same of control, and the displaced surface with it; mr-pose goes by its regions where mesh has none. */
-static bool
-is_control_posable(const mr_frame *f, const displaced *d)
-{
-	return d->there && mr_layer_has(f, "control", "response") && mr_layer_has(f, "control", "region") &&
-	       !mr_layer_has(f, "mesh", "region") && !mr_layer_has(f, "mesh", "detail_height");
 }
 
 static bool
@@ -105,10 +97,8 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const displa
 	if (!*c->layer)
 		return !strcmp(c->name, "history") || !strcmp(c->name, "latest") ||
 		       !strcmp(c->name, "findings");
-	if (is_posing(c) && strcmp(c->layer, "handles") != 0)
-		return control ? is_control_posable(f, d) : is_posable(f, layers);
 	if (is_posing(c))
-		return is_control_posable(f, d) || is_posable(f, layers);
+		return is_posable(f, layers);
 	if (d->there && is_of_displaced(c))
 		return true;
 	if (is_made(c, d) || !(control || is_listed(c->layer, layers)) ||
@@ -438,27 +428,18 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const displaced *d)
 	return MR_OK;
 }
 
-/* What mr-decode would refuse of a layer with a response is refused here: the page trusts its numbers. */
+/* What mr-decode would refuse is refused here: the page trusts its numbers. */
 static mr_status
-check_posing(mr_ctx *ctx, mr_frame *f, const char *layer)
+check_posing(mr_ctx *ctx, mr_frame *f)
 {
 	const double *response;
 	mr_handle_rows rows;
-	mr_mesh posed;
-
-	MR_TRY(mr_layer_mesh(ctx, f, layer, &posed));
-	return mr_response_get(ctx, f, &posed, &response, &rows);
-}
-
-static mr_status
-check_detail(mr_ctx *ctx, mr_frame *f)
-{
 	mr_detail detail;
 	mr_mesh base;
 
-	MR_TRY(check_posing(ctx, f, "base"));
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	return mr_detail_get(ctx, f, &base, &detail);
+	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
+	return mr_response_get(ctx, f, &base, &response, &rows);
 }
 
 /* The surface of displacement goes by the name that mr-decode gives it, unless there is another mesh. */
@@ -576,9 +557,7 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	MR_TRY(find_displaced(ctx, page, frame, layers, &surface));
 	MR_TRY(check_layers(ctx, frame, layers, &surface));
 	if (is_posable(frame, layers))
-		MR_TRY(check_detail(ctx, frame));
-	if (is_control_posable(frame, &surface))
-		MR_TRY(check_posing(ctx, frame, "control"));
+		MR_TRY(check_posing(ctx, frame));
 	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown, result));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(mr_writer_put(ctx, page->writer, &shown));

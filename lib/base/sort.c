@@ -52,17 +52,7 @@ compare_reals(const void *a, const void *b)
 void
 mr_sort_reals(double *x, size_t n)
 {
-	if (n > SHORT) {
-		qsort(x, n, sizeof *x, compare_reals);
-		return;
-	}
-	for (size_t i = 1; i < n; i++) {
-		double moved = x[i];
-		size_t j = i;
-		for (; j > 0 && x[j - 1] > moved; j--)
-			x[j] = x[j - 1];
-		x[j] = moved;
-	}
+	qsort(x, n, sizeof *x, compare_reals);
 }
 
 /* Hoare 1961: Algorithm 65. */

@@ -137,52 +137,27 @@ clip(polygon *g, size_t i, mr_tri *t)
 		g->reflex[c] = cross(g->q[a], g->q[c], g->q[g->next[c]]) <= 0;
 }
 
-/* The corner left that turns least. */
-static size_t
-flattest(const polygon *g, size_t i, size_t left)
-{
-	size_t best = i;
-	double least = INFINITY;
-
-	for (; left > 0; left--, i = g->next[i]) {
-		double turn = fabs(cross(g->q[g->prev[i]], g->q[i], g->q[g->next[i]]));
-		if (turn < least) {
-			least = turn;
-			best = i;
-		}
-	}
-	return best;
-}
-
 /*
  * Clips ears in turn.  Clipping one can make ears of its two neighbours only, which line up again, at the
  * end, so that the triangles do not all share a corner.  Where none is left the polygon is not simple, or
- * rounding hides an ear: the corner that turns least goes, and after some of these the rest becomes a fan.
+ * rounding hides an ear: the next corner goes.
  */
 static void
 clip_ears(polygon *g, mr_tri *t)
 {
-	enum { PATIENCE = 64 };
-	size_t i = 0, at = 0, forced = 0, waiting = g->n;
+	size_t i = 0, at = 0, waiting = g->n;
 
 	for (size_t k = 0; k < g->n; k++)
 		g->queue[k] = (uint32_t)k;
 	for (size_t left = g->n; left > 3; left--) {
-		size_t ear;
 		while (at < waiting && (g->clipped[g->queue[at]] || !is_ear(g, g->queue[at])))
 			at++;
 		if (at < waiting)
-			ear = g->queue[at++];
-		else if (forced++ < PATIENCE)
-			ear = flattest(g, i, left);
-		else
-			ear = g->next[i];
-		if (forced <= PATIENCE) {
-			g->queue[waiting++] = g->prev[ear];
-			g->queue[waiting++] = g->next[ear];
-			i = g->next[ear];
-		}
-		clip(g, ear, t++);
+			i = g->queue[at++];
+		g->queue[waiting++] = g->prev[i];
+		g->queue[waiting++] = g->next[i];
+		clip(g, i, t++);
+		i = g->next[i];
 	}
 	emit(t, g->prev[i], i, g->next[i]);
 }

@@ -51,14 +51,8 @@ find(const weld *w, mr_v3 a, mr_v3 cell)
 {
 	uint32_t best = MR_NONE;
 
-	if (w->eps == 0) {
-		for (uint32_t i = w->slot[slot_of(w, cell)]; i; i = w->stand[i - 1].older) {
-			mr_v3 b = w->stand[i - 1].p;
-			if (b.x == a.x && b.y == a.y && b.z == a.z)
-				return i - 1;
-		}
-		return MR_NONE;
-	}
+	if (w->eps == 0)
+		return lowest_in(w, cell, a, best);
 	for (int k = 0; k < 27; k++) {
 		mr_v3 step = mr_vec(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
 		mr_v3 beside = mr_add(cell, step);

@@ -13,7 +13,7 @@ SHORT = {"-H": "--handle", "-t": "--translate", "-r": "--rotate", "-s": "--scale
 
 
 def pose_by(b, text):
-    """Poses handles as a line of commands does, each by one command, and takes the level that it names."""
+    """Poses handles as a line of commands does, each by one command."""
     poses = []
     for command in text.split(" | "):
         words = command.split()
@@ -23,9 +23,6 @@ def pose_by(b, text):
             poses.append({"handle": int(options["handle"][0]), "translate": options.get("translate", [0, 0, 0]),
                           "rotate": options.get("rotate", [0, 0, 1, 0]), "scale": scale * 3 if len(scale) == 1
                               else scale})
-        else:
-            level = "%d" % options["level"][0] if "level" in options else "mrView.posing.pose.most"
-            b.eval("mrView.posing.pose.most !== null && mrView.change({ level: %s })" % level)
     b.eval("mrView.posing.act(() => mrView.posing.pose.set(%s))" % json.dumps(poses))
     b.settle()
 

@@ -27,12 +27,9 @@ async function startOf(frame) {
 	return Array.from({ length: values.length / 12 }, (_, i) => Array.from(values.subarray(12 * i, 12 * i + 12)));
 }
 
-/* The layer whose regions are the handles: mr-pose goes by mesh where that has any. */
-const handled = (frame) => (ownRegion(frame, "mesh") ? "mesh" : "control");
-
 export async function poseOf(frame) {
-	const layer = handled(frame), region = await ownRegion(frame, layer).values(),
-		position = await columnOf(frame, layer, "position").values();
+	const region = await ownRegion(frame, "mesh").values(),
+		position = await columnOf(frame, "mesh", "position").values();
 	const box = boxOf(position);
 
 	return new Pose(centroidsOf(region, position), await startOf(frame),

@@ -38,12 +38,11 @@ function commandOf({ handle, translate, rotate, scale }) {
 	return options.length ? ["mr-pose -H " + handle, ...options].join(" ") : "";
 }
 
-/* The line that makes the poses, on a level other than the finest if there is one; empty where all is at rest. */
-function lineOf(poses, level) {
+/* The line that makes the poses; empty where all is at rest. */
+function lineOf(poses) {
 	const commands = poses.map(commandOf).filter(Boolean);
 
-	return commands.length ? [...commands, level === null ? "mr-decode" : "mr-decode --level " +
-		level].join(" | ") : "";
+	return commands.length ? [...commands, "mr-decode"].join(" | ") : "";
 }
 
 export class Pose {
@@ -56,7 +55,6 @@ export class Pose {
 		this.numbers = Object.keys(centroids).map(Number);
 		this.start = start;
 		this.decimals = Math.min(Math.max(5 - Math.floor(Math.log10(extent)), 0), 20);
-		this.most = this.level = null; /* the finest level of a displaced surface, and the one that is shown */
 		this.poses = [];
 		this.past = [];
 		this.future = [];
@@ -115,7 +113,7 @@ export class Pose {
 
 	/* Behind a drag that has led nowhere there is nothing to undo. */
 	settle() {
-		if (this.past.length && lineOf(this.past[this.past.length - 1], null) === lineOf(this.poses, null))
+		if (this.past.length && lineOf(this.past[this.past.length - 1]) === lineOf(this.poses))
 			this.past.pop();
 	}
 
@@ -142,6 +140,6 @@ export class Pose {
 	}
 
 	line() {
-		return lineOf(this.poses, this.level === this.most ? null : this.level);
+		return lineOf(this.poses);
 	}
 }

@@ -40,17 +40,15 @@ export class Posing {
 		const columns = posedBy(frame);
 
 		if (!this.suits(frame, centre))
-			await this.begin(frame, columns, centre);
+			await this.begin(columns, centre);
 		const start = columns && (columnOf(frame, "handles", "transform") || columns.response);
 		if (start !== this.start && this.deformer) {
 			this.pose = await poseOf(frame);
 			this.handle = null;
-			this.follow(frame);
 			this.apply();
 		}
 		this.start = start;
 		$("whole").textContent = "mr-cat " + streamOf(frame) + " | … | mr-export posed.ply";
-		this.follow(frame);
 		$("pose").hidden = $("poseline").hidden = !this.pose || this.pose.numbers.length === 0;
 	}
 
@@ -64,12 +62,10 @@ export class Posing {
 	/* Layers that are drawn anew are posed again, unless the frame is another. */
 	drawAgain(frame, centre) {
 		this.moved = this.moved && this.suits(frame, centre);
-		if (this.moved)
-			this.follow(frame);
 		this.draw();
 	}
 
-	async begin(frame, columns, centre) {
+	async begin(columns, centre) {
 		cancelAnimationFrame(this.asked);
 		this.asked = 0;
 		if (this.deformer)
@@ -78,20 +74,8 @@ export class Posing {
 		this.start = this.next = this.pose = this.handle = this.deformer = null;
 		this.centre = centre;
 		if (columns)
-			this.deformer = await new Poser(frame, columns, () => this.posed()).prepare(centre);
+			this.deformer = await new Poser(columns).prepare(centre);
 		this.show();
-	}
-
-	/* Goes to the level that is shown, of surfaces and in the line. */
-	follow(frame) {
-		if (!this.deformer || !this.pose)
-			return;
-		this.pose.most = this.deformer.surface ? this.deformer.surface.most : null;
-		this.pose.level = this.deformer.surface ? frame.levels.at : null;
-		this.deformer.follow(frame);
-		if (this.deformer.working)
-			$("poseline").setAttribute("aria-busy", "true");
-		this.showLine();
 	}
 
 	/* Brings everything to the pose as it is. */
@@ -115,24 +99,13 @@ export class Posing {
 		this.asked = this.asked || requestAnimationFrame(() => this.turn());
 	}
 
-	/* There are places by the last maps. */
-	posed() {
-		this.fresh = true;
-		if (this.moved)
-			this.ask();
-	}
-
-	/* One picture of what has been computed, and the next maps to be. */
 	turn() {
 		this.asked = 0;
 		if (this.next && this.moved)
 			this.deformer.pose(this.next);
 		this.next = null;
-		if (this.fresh)
-			this.draw();
-		this.fresh = false;
-		if (!this.deformer.working)
-			$("poseline").removeAttribute("aria-busy");
+		this.draw();
+		$("poseline").removeAttribute("aria-busy");
 	}
 
 	act(change) {
@@ -161,14 +134,10 @@ export class Posing {
 
 	/* Chooses the handle that a picked vertex is of. */
 	async take(frame, { name, vertex }) {
-		const region = ownRegion(frame, name), { surface } = this.deformer || {};
+		const region = this.pose && ownRegion(frame, name);
 
-		if (!this.pose || !this.pose.numbers.length)
-			return;
 		if (region)
 			this.choose((await region.values())[vertex] - HANDLE);
-		else if (surface && surface.layer === name)
-			this.choose(await this.deformer.regionAt(vertex) - HANDLE);
 	}
 
 	choose(handle) {
