@@ -196,7 +196,7 @@ mr_fit_step(mr_ctx *ctx, mr_fit_guard *g, mr_v3 *x, mr_v3 *z, size_t *damped)
 {
 	const mr_loop *l = &g->level[0];
 	size_t nv = l->nv;
-	mr_guard m = { l->t, l->topo, nv, l->nf, HALVES, 0, look, is_bad, g };
+	mr_guard m = { l->t, l->topo, nv, l->nf, HALVES, look, is_bad, g };
 
 	aim(g, z);
 	for (int i = 0; i < SMOOTHS; i++) {

@@ -1,4 +1,4 @@
-/* Rounds: bad faces hold back what is around them, then what that may have changed is looked at again. */
+/* Rounds: bad faces hold back their corners, then what that may have changed is looked at again. */
 #include "mesh/guarded_move.h"
 
 #include "base/parallel.h"
@@ -6,161 +6,72 @@
 
 enum { GRAIN = 256 };
 
-/* Numbers, each once. */
-typedef struct list {
-	uint32_t *at;
-	size_t n;
-	bool *has; /* of each number */
-} list;
-
 typedef struct move {
 	const mr_guard *g;
 	const mr_v3 *from;
 	mr_v3 *to;
-	bool all;        /* faces are to look at now; else: */
-	list face, next; /* to look at now, and after */
-	bool *bad;       /* of those to look at now */
-	list vertex;     /* to hold back */
+	bool *asked; /* faces that are to be looked at */
+	bool *bad;   /* of those */
+	bool *held;  /* vertices that were held back in this round */
 	unsigned round;
 } move;
-
-static void
-list_new(mr_ctx *ctx, size_t room, list *l)
-{
-	*l = (list){ MR_NEW(ctx, room, uint32_t), 0, MR_NEW_ZERO(ctx, room, bool) };
-}
-
-static void
-list_add(list *l, uint32_t x)
-{
-	if (l->has[x])
-		return;
-	l->has[x] = true;
-	l->at[l->n++] = x;
-}
-
-static void
-list_clear(list *l)
-{
-	for (size_t i = 0; i < l->n; i++)
-		l->has[l->at[i]] = false;
-	l->n = 0;
-}
-
-/* How many faces there are to look at. */
-static size_t
-count(const move *w)
-{
-	return w->all ? w->g->nf : w->face.n;
-}
-
-/* The i-th of them. */
-static uint32_t
-face_at(const move *w, size_t i)
-{
-	return w->all ? (uint32_t)i : w->face.at[i];
-}
 
 static void
 judge(void *arg, size_t begin, size_t end)
 {
 	const move *w = arg;
 
-	for (size_t i = begin; i < end; i++) {
-		uint32_t f = face_at(w, i);
-		w->bad[i] = w->g->t[f].v[0] != MR_NONE && w->g->is_bad(w->g->arg, f);
-	}
+	for (size_t f = begin; f < end; f++)
+		w->bad[f] = w->asked[f] && w->g->t[f].v[0] != MR_NONE && w->g->is_bad(w->g->arg, (uint32_t)f);
 }
 
-/* Lists the faces around v, or their corners. */
-static void
-list_around(const mr_guard *g, uint32_t v, bool corners, list *l)
-{
-	uint32_t first = g->topo.out[v], h = first;
-
-	do {
-		if (!corners)
-			list_add(l, h / 3);
-		for (int k = 0; k < 3 && corners; k++)
-			list_add(l, g->t[h / 3].v[k]);
-		h = mr_he_ccw(&g->topo, h);
-	} while (h != MR_NONE && h != first);
-}
-
-/* False where v stays already. */
+/* False where v stays already, or went back in this round; else the faces around it are to be looked at. */
 static bool
 hold_back(move *w, uint32_t v)
 {
-	if (memcmp(&w->to[v], &w->from[v], sizeof *w->to) == 0)
+	uint32_t first = w->g->topo.out[v], h = first;
+
+	if (w->held[v] || memcmp(&w->to[v], &w->from[v], sizeof *w->to) == 0)
 		return false;
+	w->held[v] = true;
 	w->to[v] = w->round < w->g->halves ? mr_lerp(0.5, w->from[v], w->to[v]) : w->from[v];
+	do {
+		w->asked[h / 3] = true;
+		h = mr_he_ccw(&w->g->topo, h);
+	} while (h != MR_NONE && h != first);
 	return true;
 }
 
-/* Bad faces, one after the other, hold their corners back, but those that have become good by that; then the
- * faces around what was held back are to be looked at. */
+/* Bad faces, one after the other, hold their corners back, but those that have become good by that. */
 static bool
 hold_corners(move *w)
 {
-	list looked = w->face;
+	bool any = false;
 
-	for (size_t i = 0; i < count(w); i++) {
-		uint32_t f = face_at(w, i);
-		if (!w->bad[i] || !w->g->is_bad(w->g->arg, f))
+	memset(w->asked, w->g->look != NULL, w->g->nf * sizeof *w->asked);
+	memset(w->held, 0, w->g->nv * sizeof *w->held);
+	for (uint32_t f = 0; f < w->g->nf; f++) {
+		if (!w->bad[f] || !w->g->is_bad(w->g->arg, f))
 			continue;
 		for (int k = 0; k < 3; k++)
-			if (hold_back(w, w->g->t[f].v[k]))
-				list_around(w->g, w->g->t[f].v[k], false, &w->next);
+			any |= hold_back(w, w->g->t[f].v[k]);
 	}
-	w->all = false;
-	w->face = w->next;
-	w->next = looked;
-	list_clear(&w->next);
-	return w->face.n > 0;
-}
-
-/* All bad faces at once hold back what is around them. */
-static bool
-hold_rings(move *w)
-{
-	bool any = false;
-	size_t i = 0;
-
-	list_clear(&w->vertex);
-	for (size_t f = 0; f < w->g->nf; f++)
-		for (int k = 0; k < 3 && w->bad[f]; k++)
-			list_add(&w->vertex, w->g->t[f].v[k]);
-	for (unsigned ring = 0; ring < w->g->rings; ring++)
-		for (size_t end = w->vertex.n; i < end; i++)
-			list_around(w->g, w->vertex.at[i], true, &w->vertex);
-	for (i = 0; i < w->vertex.n; i++)
-		any |= hold_back(w, w->vertex.at[i]);
 	return any;
-}
-
-static void
-move_new(mr_ctx *ctx, move *w)
-{
-	const mr_guard *g = w->g;
-
-	list_new(ctx, g->nf, &w->face);
-	list_new(ctx, g->nf, &w->next);
-	list_new(ctx, g->nv, &w->vertex);
-	w->bad = MR_NEW(ctx, g->nf, bool);
 }
 
 mr_status
 mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	move w = { .g = guard, .from = from, .to = to, .all = true };
+	move w = { guard, from, to, MR_NEW(ctx, guard->nf, bool), MR_NEW(ctx, guard->nf, bool),
+		MR_NEW(ctx, guard->nv, bool), 0 };
 
-	move_new(ctx, &w);
+	memset(w.asked, true, guard->nf * sizeof *w.asked);
 	for (bool any = true; any; w.round++) {
 		if (guard->look)
 			MR_TRY(guard->look(ctx, guard->arg));
-		mr_parallel(ctx, count(&w), GRAIN, judge, &w);
-		any = guard->look ? hold_rings(&w) : hold_corners(&w);
+		mr_parallel(ctx, guard->nf, GRAIN, judge, &w);
+		any = hold_corners(&w);
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -18,7 +18,6 @@ typedef struct mr_guard {
 	mr_topology topo;
 	size_t nv, nf;
 	unsigned halves; /* rounds in which what is held back goes half as far; in later ones it stays */
-	unsigned rings;  /* of vertices around a bad face that are held back with its corners */
 	/*
 	 * What is bad of a face may depend on how its corners and those of its neighbours move.  Where it
 	 * depends on more, `look` looks at the whole surface first, each time; NULL: it does not.

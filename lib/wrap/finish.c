@@ -108,6 +108,7 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
 typedef struct crossing {
 	const mr_dyn *d;
 	bool *crosses; /* each face */
+	bool *touched; /* each vertex: by such a face */
 } crossing;
 
 static mr_status
@@ -118,29 +119,36 @@ find_crossings(mr_ctx *ctx, void *arg)
 	size_t count;
 
 	mr_self_intersections(ctx, NULL, &m, w->crosses, &count);
+	memset(w->touched, 0, m.nv * sizeof *w->touched);
+	for (size_t h = 0; h < 3 * m.nf; h++)
+		if (w->crosses[h / 3])
+			w->touched[m.t[h / 3].v[h % 3]] = true;
 	return MR_OK;
 }
 
+/* Faces around those that cross, too: else sheets of which one has settled into the next are left with folds.
+ */
 static bool
-crosses(const void *arg, uint32_t f)
+is_near_crossing(const void *arg, uint32_t f)
 {
-	return ((const crossing *)arg)->crosses[f];
+	const crossing *w = arg;
+	const uint32_t *v = w->d->v + 3 * (size_t)f;
+
+	return w->touched[v[0]] || w->touched[v[1]] || w->touched[v[2]];
 }
 
-/* Without the ring sheets of which one has settled into the next are left with folds. */
 mr_status
 mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	crossing w = { d, MR_NEW(ctx, d->nf, bool) };
+	crossing w = { d, MR_NEW(ctx, d->nf, bool), MR_NEW(ctx, d->nv, bool) };
 	mr_guard g = { .t = mr_dyn_view(d, "control").t,
 		.topo = { d->twin, d->out },
 		.nv = d->nv,
 		.nf = d->nf,
 		.halves = 2,
-		.rings = 1,
 		.look = find_crossings,
-		.is_bad = crosses,
+		.is_bad = is_near_crossing,
 		.arg = &w };
 
 	MR_TRY(mr_guarded_move(ctx, &g, home, d->p));
