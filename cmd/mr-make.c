@@ -3,13 +3,12 @@
 #include "shape/shape.h"
 
 static mr_make_opts opts = MR_MAKE_DEFAULTS;
-static cmd_length noise = { 0, false };
 static size_t seed = 1;
 
 static const cmd_opt table[] = {
 	{ 'n', "vertices", CMD_COUNT, &opts.vertices, 0, 1e9, "N",
 	    "about how many vertices; 0 is 10,000, and 30,000 for bumpy", NULL },
-	{ 0, "noise", CMD_LENGTH, &noise, 0, INFINITY, "S",
+	{ 0, "noise", CMD_LENGTH, CMD_LENGTH_OF(mr_make_opts, opts, noise), 0, INFINITY, "S",
 	    "standard deviation of Gaussian noise along the normals", NULL },
 	{ 0, "points", CMD_COUNT, &opts.points, 0, 1e9, "N",
 	    "write a cloud of N points, uniform by area, instead of the mesh; 0 is the mesh", NULL },
@@ -54,8 +53,6 @@ make(cmd *c)
 {
 	mr_frame *f;
 
-	opts.noise = noise.value;
-	opts.noise_relative = noise.relative;
 	opts.seed = seed;
 	MR_TRY(mr_make(&c->ctx, &opts, &f));
 	return cmd_send(c, f);

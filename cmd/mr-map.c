@@ -4,7 +4,6 @@
 
 static mr_map_opts opts = MR_MAP_DEFAULTS;
 static const char *to, *from;
-static cmd_range range;
 static mr_string_set given;
 
 static const cmd_opt table[] = {
@@ -14,7 +13,7 @@ static const cmd_opt table[] = {
 	{ 'n', "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "LEVEL",
 	    "subdivisions of the control mesh (default: as many as have heights, or as the picture says)",
 	    NULL },
-	{ 0, "range", CMD_RANGE, &range, 0, 0, "LOW,HIGH",
+	{ 0, "range", CMD_RANGE, &opts.low, 0, 0, "LOW,HIGH",
 	    "heights of black and white (default: the least and the greatest, or as the picture says)",
 	    NULL },
 	{ 0, "size", CMD_COUNT, &opts.side, 1, 32767, "N", "texels that a side of a picture may have", NULL },
@@ -31,9 +30,7 @@ check(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "give one of --write NAME and --read PICTURE");
 	MR_TRY(cmd_idle(c, "size", from != NULL, "with --read"));
 	MR_TRY(cmd_idle(c, "gutter", from != NULL, "with --read"));
-	opts.ranged = range.given;
-	opts.low = range.low;
-	opts.high = range.high;
+	opts.ranged = cmd_given(c, "range");
 	return mr_outname(&c->ctx, to ? to : from, "", 1, &name);
 }
 

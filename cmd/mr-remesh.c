@@ -2,10 +2,10 @@
 #include "cmd.h"
 
 static mr_remesh_opts opts = MR_REMESH_DEFAULTS;
-static cmd_length length, adaptive;
 
 static const cmd_opt table[] = {
-	{ 'L', "length", CMD_LENGTH, &length, 0, 1e300, "LENGTH", "target edge length; 0: by --ratio", NULL },
+	{ 'L', "length", CMD_LENGTH, CMD_LENGTH_OF(mr_remesh_opts, opts, length), 0, 1e300, "LENGTH",
+	    "target edge length; 0: by --ratio", NULL },
 	{ 'r', "ratio", CMD_REAL, &opts.ratio, 1e-6, 1e6, "RATIO",
 	    "target edge length, in edges of the equilateral triangle of mean area", NULL },
 	{ 'n', "rounds", CMD_COUNT, &opts.rounds, 0, 1000, "N", "rounds of split, collapse, flip, relocate",
@@ -20,7 +20,7 @@ static const cmd_opt table[] = {
 	    "choose the length to give about so many; 0: do not", NULL },
 	{ 0, "feature", CMD_REAL, &opts.feature, 0, 180, "DEGREES",
 	    "keep edges whose faces meet at more; 180: none", NULL },
-	{ 0, "adaptive", CMD_LENGTH, &adaptive, 0, 1e300, "DISTANCE",
+	{ 0, "adaptive", CMD_LENGTH, CMD_LENGTH_OF(mr_remesh_opts, opts, adaptive), 0, 1e300, "DISTANCE",
 	    "lengths by curvature: how far an edge may be from the surface; 0: uniform", NULL },
 	{ 0, "no-project", CMD_OFF, &opts.project, 0, 0, "", "let the vertices leave the surface", NULL },
 	{ 0 },
@@ -29,11 +29,7 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
-	opts.length = length.value;
-	opts.length_relative = length.relative;
-	opts.adaptive = adaptive.value;
-	opts.adaptive_relative = adaptive.relative;
-	MR_TRY(cmd_idle(c, "ratio", length.value > 0, "with --length"));
+	MR_TRY(cmd_idle(c, "ratio", opts.length > 0, "with --length"));
 	MR_TRY(cmd_idle(c, "vertices", opts.faces > 0, "with --faces"));
 	MR_TRY(cmd_idle(c, "length", opts.faces + opts.vertices > 0, "with --vertices or --faces"));
 	MR_TRY(cmd_idle(c, "ratio", opts.faces + opts.vertices > 0, "with --vertices or --faces"));

@@ -6,9 +6,7 @@
 #include "render/gallery.h"
 
 static mr_render_opts opts = MR_RENDER_DEFAULTS;
-static cmd_size size = { 800, 600 };
 static const char *view = "quarter";
-static cmd_range range;
 static int up = 1;
 static bool sheet;
 static size_t written;
@@ -17,7 +15,7 @@ static mr_gallery gallery;
 static mr_mark kept; /* of the arena that holds the gallery */
 
 static const cmd_opt table[] = {
-	{ 's', "size", CMD_SIZE, &size, 16, 16384, "WxH", "pixels of a panel", NULL },
+	{ 's', "size", CMD_SIZE, &opts.width, 16, 16384, "WxH", "pixels of a panel", NULL },
 	{ 0, "view", CMD_TEXT, &view, 0, 0, "DIR",
 	    "front, back, left, right, top, bottom, iso, quarter, or where the eye stands as x,y,z", NULL },
 	{ 0, "up", CMD_CHOICE, &up, 0, 0, "x|y|z", "axis that is upwards", NULL },
@@ -25,7 +23,7 @@ static const cmd_opt table[] = {
 	{ 'c', "color", CMD_TEXT, &opts.color, 0, 0, "COLUMN", "colour by a column's values", NULL },
 	{ 0, "texture", CMD_TEXT, &opts.texture, 0, 0, "FILE", "picture on surfaces", NULL },
 	{ 0, "materials", CMD_TEXT, &opts.materials, 0, 0, "DIR", "folder of files of materials", NULL },
-	{ 0, "range", CMD_RANGE, &range, 0, 0, "LOW,HIGH", "values that the colours span", NULL },
+	{ 0, "range", CMD_RANGE, &opts.low, 0, 0, "LOW,HIGH", "values that the colours span", NULL },
 	{ 'w', "wire", CMD_FLAG, &opts.wire, 0, 0, NULL, "draw edges", NULL },
 	{ 0, "sheet", CMD_FLAG, &sheet, 0, 0, NULL, "all frames in one picture", NULL },
 	{ 0, "columns", CMD_COUNT, &opts.columns, 0, 10000, "N", "of the sheet; 0: for 3 by 2", NULL },
@@ -57,12 +55,8 @@ prepare(cmd *c)
 	MR_TRY(cmd_idle(c, "materials", opts.texture != NULL, "with --texture"));
 	MR_TRY(cmd_idle(c, "range", !opts.color, "without --color"));
 	opts.layers = c->layer;
-	opts.width = size.width;
-	opts.height = size.height;
 	opts.up = mr_vec(up == 0, up == 1, up == 2);
-	opts.ranged = range.given;
-	opts.low = range.low;
-	opts.high = range.high;
+	opts.ranged = cmd_given(c, "range");
 	kept = mr_mark_take(&c->keep);
 	MR_TRY(mr_outname(&c->ctx, c->operands[0], "", 0, &path));
 	return parse_view(&c->ctx);

@@ -3,12 +3,11 @@
 #include "mesh/layers.h"
 
 static mr_simplify_opts opts = MR_SIMPLIFY_DEFAULTS;
-static cmd_length error;
 
 static const cmd_opt table[] = {
 	{ 'n', "faces", CMD_COUNT, &opts.faces, 0, 4e9, "N", "stop at so many; 0: no such limit", NULL },
 	{ 'r', "ratio", CMD_REAL, &opts.ratio, 0, 1, "RATIO", "stop at this share; 0: no such limit", NULL },
-	{ 'e', "error", CMD_LENGTH, &error, 0, 1e300, "LENGTH",
+	{ 'e', "error", CMD_LENGTH, CMD_LENGTH_OF(mr_simplify_opts, opts, error), 0, 1e300, "LENGTH",
 	    "most distance to the planes of what is merged; 0: no such limit", NULL },
 	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },
 	{ 0, "creases", CMD_FLAG, &opts.creases, 0, 0, NULL,
@@ -47,8 +46,6 @@ check_name(cmd *c, const char *option, const char *layer)
 static mr_status
 prepare(cmd *c)
 {
-	opts.error = error.value;
-	opts.error_relative = error.relative;
 	MR_TRY(check_name(c, "--to", opts.to));
 	MR_TRY(check_name(c, "--map", opts.map));
 	MR_TRY(cmd_idle(c, "map", opts.to, "with --to, which keeps the surface"));

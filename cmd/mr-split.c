@@ -2,10 +2,9 @@
 #include "cmd.h"
 
 static mr_split_opts opts;
-static cmd_length distance;
 
 static const cmd_opt table[] = {
-	{ 'd', "distance", CMD_LENGTH, &distance, 0, 1e300, "DISTANCE",
+	{ 'd', "distance", CMD_LENGTH, CMD_LENGTH_OF(mr_split_opts, opts, distance), 0, 1e300, "DISTANCE",
 	    "points no farther apart are connected; 0: four times as far as they are from their neighbours",
 	    NULL },
 	{ 'n', "least", CMD_COUNT, &opts.least, 0, 4294967295, "N",
@@ -14,15 +13,6 @@ static const cmd_opt table[] = {
 	    NULL },
 	{ 0 },
 };
-
-static mr_status
-prepare(cmd *c)
-{
-	(void)c;
-	opts.distance = distance.value;
-	opts.distance_relative = distance.relative;
-	return MR_OK;
-}
 
 static const cmd_field figures[] = {
 	CMD_COUNTED(mr_split_result, parts),
@@ -50,7 +40,6 @@ split_frame(cmd *c, mr_frame *f)
 const cmd_tool cmd_this = {
 	.summary = "make a frame of each connected part of a surface or a cloud",
 	.options = table,
-	.prepare = prepare,
 	.frame = split_frame,
 	.sends = true,
 };

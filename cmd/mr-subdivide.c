@@ -3,15 +3,13 @@
 
 static mr_subdivide_opts opts = MR_SUBDIVIDE_DEFAULTS;
 
-static cmd_length longest;
-
 static const cmd_opt table[] = {
 	{ 'n', "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "LEVEL",
 	    "how many times each triangle becomes four", NULL },
 	{ 0, "limit", CMD_FLAG, &opts.limit, 0, 0, "", "move the vertices onto the limit surface", NULL },
 	{ 0, "crease", CMD_REAL, &opts.crease, 0, 180, "DEGREES",
 	    "keep edges whose faces meet at more; 180: none", NULL },
-	{ 0, "longest", CMD_LENGTH, &longest, 0, 1e300, "LENGTH",
+	{ 0, "longest", CMD_LENGTH, CMD_LENGTH_OF(mr_subdivide_opts, opts, longest), 0, 1e300, "LENGTH",
 	    "instead, divide edges that are longer, the surface as it is; 0: not", NULL },
 	{ 0 },
 };
@@ -28,11 +26,9 @@ check(cmd *c)
 {
 	static const char why[] = "beside --longest, which leaves the surface as it is";
 
-	opts.longest = longest.value;
-	opts.longest_relative = longest.relative;
-	MR_TRY(cmd_idle(c, "level", longest.value > 0, why));
-	MR_TRY(cmd_idle(c, "limit", longest.value > 0, why));
-	return cmd_idle(c, "crease", longest.value > 0, why);
+	MR_TRY(cmd_idle(c, "level", opts.longest > 0, why));
+	MR_TRY(cmd_idle(c, "limit", opts.longest > 0, why));
+	return cmd_idle(c, "crease", opts.longest > 0, why);
 }
 
 static mr_status

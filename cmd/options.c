@@ -79,6 +79,13 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 	return MR_OK;
 }
 
+/* Whether a length is relative stands behind it. */
+static bool *
+relative_of(const cmd_opt *o)
+{
+	return (bool *)(void *)((double *)o->value + 1);
+}
+
 static mr_status
 parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 {
@@ -91,7 +98,8 @@ parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 	if (!number_at(number, &end, &x) || *end)
 		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
 	MR_TRY(cmd_parse_real(ctx, what, number, o->min, o->max, &x));
-	*(cmd_length *)o->value = (cmd_length){ relative ? x / 100 : x, relative };
+	*(double *)o->value = relative ? x / 100 : x;
+	*relative_of(o) = relative;
 	return MR_OK;
 }
 
@@ -99,28 +107,23 @@ static mr_status
 parse_size(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 {
 	const char *x = strchr(text, 'x');
+	size_t *size = o->value;
 	char width[16];
-	cmd_size s;
 
 	if (!x || x - text >= (int)sizeof width)
 		return mr_fail(ctx, MR_EUSAGE, "%s: %s is not of the form WxH", what, text);
 	snprintf(width, sizeof width, "%.*s", (int)(x - text), text);
-	MR_TRY(cmd_parse_count(ctx, what, width, (size_t)o->min, (size_t)o->max, &s.width));
-	MR_TRY(cmd_parse_count(ctx, what, x + 1, (size_t)o->min, (size_t)o->max, &s.height));
-	*(cmd_size *)o->value = s;
-	return MR_OK;
+	MR_TRY(cmd_parse_count(ctx, what, width, (size_t)o->min, (size_t)o->max, &size[0]));
+	return cmd_parse_count(ctx, what, x + 1, (size_t)o->min, (size_t)o->max, &size[1]);
 }
 
 static mr_status
 parse_range(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 {
-	double v[2];
+	double *v = o->value;
 
 	MR_TRY(cmd_parse_reals(ctx, what, text, 2, v));
-	if (!(v[0] < v[1]))
-		return mr_fail(ctx, MR_EUSAGE, "%s: %g is not below %g", what, v[0], v[1]);
-	*(cmd_range *)o->value = (cmd_range){ true, v[0], v[1] };
-	return MR_OK;
+	return v[0] < v[1] ? MR_OK : mr_fail(ctx, MR_EUSAGE, "%s: %g is not below %g", what, v[0], v[1]);
 }
 
 static mr_status
@@ -308,6 +311,7 @@ print_default(FILE *out, const cmd_opt *o)
 
 	switch (o->kind) {
 	case CMD_REAL:
+	case CMD_LENGTH: /* none is relative */
 		fprintf(out, " (default %.6g)", *(double *)o->value);
 		break;
 	case CMD_COUNT:
@@ -322,15 +326,8 @@ print_default(FILE *out, const cmd_opt *o)
 		if (*(const char **)o->value)
 			fprintf(out, " (default %s)", *(const char **)o->value);
 		break;
-	case CMD_LENGTH: {
-		cmd_length l = *(cmd_length *)o->value;
-		fprintf(out, l.relative ? " (default %.6g%%)" : " (default %.6g)",
-		    l.relative ? 100 * l.value : l.value);
-		break;
-	}
 	case CMD_SIZE:
-		fprintf(
-		    out, " (default %zux%zu)", ((cmd_size *)o->value)->width, ((cmd_size *)o->value)->height);
+		fprintf(out, " (default %zux%zu)", ((size_t *)o->value)[0], ((size_t *)o->value)[1]);
 		break;
 	case CMD_FLAG:
 	case CMD_OFF:

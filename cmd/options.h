@@ -15,30 +15,13 @@ typedef enum cmd_kind {
 	CMD_COUNT,  /* size_t in [min, max] */
 	CMD_CHOICE, /* int: the index of the argument in `metavar`, "implicit|explicit|taubin" */
 	CMD_TEXT,   /* const char * */
-	CMD_LENGTH, /* cmd_length: a number, or a number and % of the diagonal */
+	CMD_LENGTH, /* a double, and behind it a bool: a number; or, with %, a share of the diagonal */
 	CMD_VECTOR, /* mr_v3: three numbers x,y,z */
-	CMD_SIZE,   /* cmd_size: WxH, both in [min, max] */
-	CMD_RANGE,  /* cmd_range: LOW,HIGH */
+	CMD_SIZE,   /* two size_t: WxH, both in [min, max] */
+	CMD_RANGE,  /* two doubles: LOW,HIGH, of which the second is greater */
 	CMD_CALL    /* given to `call`, in the order of the command line; may come several times; without a
 	               `metavar` it takes nothing */
 } cmd_kind;
-
-/* A length as given: in units of the model, or relative to the bounding-box diagonal. */
-typedef struct cmd_length {
-	double value; /* already divided by 100 where relative */
-	bool relative;
-} cmd_length;
-
-/* Pixels. */
-typedef struct cmd_size {
-	size_t width, height;
-} cmd_size;
-
-/* Numbers from low to high, which is greater. */
-typedef struct cmd_range {
-	bool given;
-	double low, high;
-} cmd_range;
 
 /* --help shows the value that `value` points to before parsing as the default. */
 typedef struct cmd_opt {
@@ -51,6 +34,12 @@ typedef struct cmd_opt {
 	/* CMD_CALL: MR_EUSAGE with a sentence refuses. */
 	mr_status (*call)(mr_ctx *ctx, const struct cmd_opt *option, const char *argument);
 } cmd_opt;
+
+/* Where a CMD_LENGTH is put: field `name` of the struct, behind which `name`_relative must stand. */
+#define CMD_LENGTH_OF(type, object, name)                                                                    \
+	(&(object).name +                                                                                    \
+	    0 * sizeof(char[offsetof(type, name##_relative) == offsetof(type, name) + sizeof(double) ? 1     \
+												     : -1]))
 
 /* What stood on a command line: pointers into argv. */
 typedef struct cmd_args {

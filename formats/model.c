@@ -324,8 +324,8 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	layer = o->layer ? o->layer : m.nf ? "mesh" : "points";
 	MR_TRY(mr_frame_new(ctx, name, &f));
 	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, layer, &m), "%s", path));
-	if (o->weld)
-		MR_TRY(mr_layer_weld(ctx, f, layer, o->weld_distance * unit));
+	if (o->welds)
+		MR_TRY(mr_layer_weld(ctx, f, layer, o->weld * unit));
 	if (o->repair)
 		MR_TRY(mr_prefix(ctx, mr_layer_repair(ctx, f, layer), "%s", path));
 	*frame = f;

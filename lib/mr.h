@@ -248,9 +248,9 @@ typedef struct mr_import_opts {
 	const char *layer;  /* NULL: mesh, without faces points */
 	bool points;        /* leave out the faces */
 	bool repair;        /* make an oriented manifold of the faces */
-	bool weld;          /* join vertices no further apart than weld_distance */
-	double weld_distance;
-	bool weld_relative; /* weld_distance is a share of the bounding box's diagonal */
+	bool welds;         /* join vertices no further apart than weld */
+	double weld;
+	bool weld_relative; /* weld is a share of the bounding box's diagonal */
 } mr_import_opts;
 
 #define MR_IMPORT_DEFAULTS MR_DEFAULTS(NULL, NULL, false, false, false, 0, false)
@@ -310,6 +310,7 @@ MR_API mr_status mr_smooth_frame(
 
 typedef struct mr_remesh_opts {
 	double length; /* target edge length; 0: ratio times the edge of the triangle of mean area */
+	bool length_relative; /* length is a share of the bounding box's diagonal */
 	double ratio;
 	size_t rounds;          /* of split, collapse, flip, relocate */
 	size_t area_passes;     /* of area-based smoothing at most */
@@ -317,13 +318,12 @@ typedef struct mr_remesh_opts {
 	double feature;         /* dihedral angle in degrees from which an edge is kept; 180: none */
 	size_t vertices, faces; /* to come near, whatever the length; 0: by the length */
 	double adaptive;        /* distance of an edge to the surface that sets the lengths; 0: uniform */
-	bool project;           /* keep the vertices on the input surface */
-	bool length_relative;   /* length is a share of the bounding box's diagonal */
 	bool adaptive_relative;
+	bool project; /* keep the vertices on the input surface */
 	const char *layer; /* NULL: base, else mesh */
 } mr_remesh_opts;
 
-#define MR_REMESH_DEFAULTS MR_DEFAULTS(0, 0.95, 5, 20, 1.5, 180, 0, 0, 0, true, false, false, NULL)
+#define MR_REMESH_DEFAULTS MR_DEFAULTS(0, false, 0.95, 5, 20, 1.5, 180, 0, 0, 0, false, true, NULL)
 
 typedef struct mr_remesh_result {
 	double length;                         /* target edge length; the mean where it is adaptive */

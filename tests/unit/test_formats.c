@@ -488,7 +488,7 @@ what_was_lost(void **state)
 	assert_int_equal(h.count[MR_REPAIRED], 0);
 
 	h = (heard){ 0 };
-	o.weld = o.repair = true;
+	o.welds = o.repair = true;
 	ok(&ctx, mr_import(&ctx, "lost.obj", &o, &f, &r));
 	assert_int_equal(h.count[MR_LOST], 2);     /* and one that collapses */
 	assert_int_equal(h.count[MR_REPAIRED], 2); /* vertices joined, a degenerate face */
