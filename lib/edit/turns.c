@@ -103,22 +103,18 @@ vertices_from_faces(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* By the sums of faces' corners. */
+/* Of each face the sum of its corners. */
 MR_VECTORS static void
-vertices_from_vertices(void *arg, size_t begin, size_t end)
+faces_from_vertices(void *arg, size_t begin, size_t end)
 {
 	const turning *t = arg;
 
-	for (size_t v = begin; v < end; v++) {
-		mr_turn s = { { 0 } };
-		for (size_t i = t->inc->start[v]; i < t->inc->start[v + 1]; i++) {
-			const uint32_t *corner = t->rest->t[t->inc->face[i]].v;
-			mr_turn f = t->from[corner[0]];
-			add_turn(&f, &t->from[corner[1]]);
-			add_turn(&f, &t->from[corner[2]]);
-			add_turn(&s, &f);
-		}
-		t->to[v] = s;
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = t->rest->t[f].v;
+		mr_turn s = t->from[v[0]];
+		add_turn(&s, &t->from[v[1]]);
+		add_turn(&s, &t->from[v[2]]);
+		t->to[f] = s;
 	}
 }
 
@@ -130,18 +126,17 @@ mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidenc
 	enum { PASSES = 2 };
 	double size = mr_box_diagonal(mr_box_of(rest->p, rest->nv));
 	turning t = { rest, now, inc, NULL, NULL, 1 / (size * size) };
-	mr_turn *vertex = MR_NEW(ctx, rest->nv, mr_turn), *other;
+	mr_turn *vertex = MR_NEW(ctx, rest->nv, mr_turn), *face;
 	mr_mark mark = mr_mark_take(ctx);
 
-	t.to = other = MR_NEW(ctx, rest->nf > rest->nv ? rest->nf : rest->nv, mr_turn);
-	mr_parallel(ctx, rest->nf, GRAIN, faces_from_places, &t);
-	t.from = other;
-	t.to = vertex;
-	mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
-	for (int i = 0; i < PASSES; i++) { /* an even number, so that the last is to `vertex` */
-		t.from = i % 2 ? other : vertex;
-		t.to = i % 2 ? vertex : other;
-		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_vertices, &t);
+	face = MR_NEW(ctx, rest->nf, mr_turn);
+	for (int i = 0; i <= PASSES; i++) {
+		t.from = vertex;
+		t.to = face;
+		mr_parallel(ctx, rest->nf, GRAIN, i == 0 ? faces_from_places : faces_from_vertices, &t);
+		t.from = face;
+		t.to = vertex;
+		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
 	}
 	mr_mark_release(ctx, mark);
 	return vertex;
