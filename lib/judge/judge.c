@@ -33,8 +33,10 @@ mr_farthest(const mr_v3 *then, const mr_v3 *now, size_t n)
 {
 	double most = 0;
 
-	for (size_t v = 0; v < n; v++)
-		most = fmax(most, mr_norm2(mr_sub(now[v], then[v])));
+	for (size_t v = 0; v < n; v++) {
+		double far = mr_norm2(mr_sub(now[v], then[v]));
+		most = far > most ? far : most;
+	}
 	return sqrt(most);
 }
 
