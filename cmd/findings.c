@@ -131,14 +131,10 @@ mr_status
 findings_read(mr_ctx *ctx, mr_frame *f, findings *all)
 {
 	mr_kept_finding k;
-	const void *text;
 	const char *at;
 	size_t n;
 
-	if (!mr_layer_has(f, "", "findings"))
-		return MR_OK;
-	MR_TRY(mr_frame_get(ctx, f, "", "findings", TEXT, &text, &n));
-	at = text;
+	MR_TRY(mr_frame_lines(ctx, f, "findings", &at, &n));
 	for (const char *end = at + n; at < end;)
 		if (mr_finding_read(&at, end, &k))
 			findings_add(all, &k);

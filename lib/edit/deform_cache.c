@@ -62,5 +62,6 @@ mr_deform_put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, co
 		    handles, MOST);
 	response = MR_NEW(ctx, 4 * handles * m->nv, double);
 	MR_TRY(mr_deform_basis(ctx, d, p0, response));
-	return mr_layer_put_wide(ctx, f, m->name, "response", (uint8_t)(4 * handles), response, m->nv);
+	return mr_frame_put(
+	    ctx, f, m->name, "response", (mr_shape){ 'v', 'd', (uint8_t)(4 * handles) }, response, m->nv);
 }

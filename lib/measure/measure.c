@@ -196,7 +196,6 @@ mr_spread
 mr_spread_of(const double *x, size_t n)
 {
 	mr_spread s = { INFINITY, 0, -INFINITY, 0 };
-	int exponent = 0;
 
 	if (n == 0)
 		return (mr_spread){ NAN, NAN, NAN, NAN };
@@ -206,12 +205,9 @@ mr_spread_of(const double *x, size_t n)
 		s.mean += x[i];
 	}
 	s.mean /= (double)n;
-	frexp(fmax(fabs(s.min), fabs(s.max)), &exponent);
-	for (size_t i = 0; i < n; i++) {
-		double off = ldexp(x[i] - s.mean, -exponent); /* whose square is a number */
-		s.deviation += off * off;
-	}
-	s.deviation = ldexp(sqrt(s.deviation / (double)n), exponent);
+	for (size_t i = 0; i < n; i++)
+		s.deviation += (x[i] - s.mean) * (x[i] - s.mean);
+	s.deviation = sqrt(s.deviation / (double)n);
 	return s;
 }
 

@@ -162,16 +162,6 @@ report_layer(const report *r, const char *layer)
 	return status == MR_EMEM ? status : MR_OK;
 }
 
-/* Whether column i is the first of its layer. */
-static bool
-first_of_layer(const mr_frame *f, size_t i)
-{
-	for (size_t k = 0; k < i; k++)
-		if (!strcmp(f->columns[k].layer, f->columns[i].layer))
-			return false;
-	return *f->columns[i].layer;
-}
-
 static mr_status
 report_layers(const report *r)
 {
@@ -181,7 +171,7 @@ report_layers(const report *r)
 	if (only && !mr_frame_has_layer(r->f, only))
 		return mr_layer_missing(r->ctx, r->f, only, only);
 	for (size_t i = 0; i < r->f->count; i++) {
-		if (!first_of_layer(r->f, i) || (only && strcmp(only, r->f->columns[i].layer)))
+		if (!mr_frame_begins_layer(r->f, i) || (only && strcmp(only, r->f->columns[i].layer)))
 			continue;
 		if (any && r->opts->json)
 			mr_text_add(r->t, ",");
@@ -197,16 +187,13 @@ report_layers(const report *r)
 static void
 report_history(const report *r)
 {
-	const mr_shape shape = { '-', 't', 1 };
-	const void *data;
 	const char *s, *end;
 	bool first = true;
 	size_t n;
 
-	if (!mr_frame_find(r->f, "", "history") ||
-	    mr_frame_get(r->ctx, r->f, "", "history", shape, &data, &n) != MR_OK)
+	if (mr_frame_lines(r->ctx, r->f, "history", &s, &n) != MR_OK)
 		return;
-	for (s = data, end = s + n; s < end; first = false) {
+	for (end = s + n; s < end; first = false) {
 		const char *stop = memchr(s, '\n', (size_t)(end - s));
 		size_t length = (size_t)((stop ? stop : end) - s);
 		if (r->opts->json) {

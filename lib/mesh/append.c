@@ -114,15 +114,6 @@ rows_of_all(const joined *j)
 	return n;
 }
 
-static const char *
-names_of(const char *column)
-{
-	for (size_t i = 0; i < MR_NAMINGS; i++)
-		if (!strcmp(mr_namings[i].column, column))
-			return mr_namings[i].list;
-	return NULL;
-}
-
 /* What the indices of the frames so far have come to. */
 typedef struct following {
 	uint64_t rows; /* of what they number: vertices, faces or polygons */
@@ -164,7 +155,7 @@ static mr_status
 follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, following *w)
 {
 	const mr_column_info *info = mr_column_of(j->layer, j->name);
-	const char *names = names_of(j->name);
+	const char *names = mr_names_of(j->name);
 
 	if (names)
 		return follow_names(ctx, j, i, names, x, n, w);
@@ -305,15 +296,10 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 static bool
 seen_before(const joined *j, size_t i, size_t k)
 {
-	const char *layer = j->frames[i]->columns[k].layer;
-
 	for (size_t before = 0; before < i; before++)
-		if (mr_frame_has_layer(j->frames[before], layer))
+		if (mr_frame_has_layer(j->frames[before], j->frames[i]->columns[k].layer))
 			return true;
-	while (k-- > 0)
-		if (!strcmp(j->frames[i]->columns[k].layer, layer))
-			return true;
-	return false;
+	return !mr_frame_begins_layer(j->frames[i], k);
 }
 
 mr_status
@@ -327,7 +313,7 @@ mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 	for (size_t i = 0; i < n; i++)
 		for (size_t k = 0; k < frames[i]->count; k++) {
 			j.layer = frames[i]->columns[k].layer;
-			if (*j.layer && !seen_before(&j, i, k))
+			if (!seen_before(&j, i, k))
 				MR_TRY(join_layer(ctx, &j, f));
 		}
 	j.layer = "";

@@ -121,14 +121,6 @@ mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
 	return longest2 > 0 ? mr_norm(mr_cross(mr_sub(b, a), mr_sub(c, a))) / longest2 : 0;
 }
 
-/* mr_dyn_shape(a, b, c) < MR_NEEDLE, where cross is that of its edges. */
-static inline bool
-mr_dyn_is_needle(mr_v3 cross, mr_v3 a, mr_v3 b, mr_v3 c)
-{
-	double least = MR_NEEDLE * mr_dyn_longest2(a, b, c);
-	return mr_norm2(cross) < least * least || least == 0;
-}
-
 /*
  * Copies m, whose half-edges are topo, into the arena.  Edges whose faces meet at more than
  * `feature` degrees are curves, and so is the boundary.  A curve vertex is a corner

@@ -16,19 +16,6 @@ has_others(const mr_frame *f, const char *layer)
 	return false;
 }
 
-/* The lines of the column, none where it is not there. */
-static mr_status
-get_order(mr_ctx *ctx, mr_frame *f, const char **text, size_t *n)
-{
-	const void *data = "";
-
-	*n = 0;
-	if (mr_layer_has(f, "", "latest"))
-		MR_TRY(mr_frame_get(ctx, f, "", "latest", TEXT, &data, n));
-	*text = data;
-	return MR_OK;
-}
-
 /* Where the layer's line begins; n: it has none. */
 static size_t
 place_of(const char *text, size_t n, const char *layer)
@@ -52,7 +39,7 @@ reorder(mr_ctx *ctx, mr_frame *f, const char *layer, bool first)
 	const char *text;
 	size_t n, at, rest;
 
-	MR_TRY(get_order(ctx, f, &text, &n));
+	MR_TRY(mr_frame_lines(ctx, f, "latest", &text, &n));
 	at = place_of(text, n, layer);
 	if (first ? n && at == 0 : at == n)
 		return MR_OK;
@@ -111,7 +98,7 @@ mr_layer_is_pending(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
 	const char *text, *what;
 	size_t n;
 
-	MR_TRY(get_order(ctx, f, &text, &n));
+	MR_TRY(mr_frame_lines(ctx, f, "latest", &text, &n));
 	*is = place_of(text, n, layer) < n && missing_tools(f, layer, &what);
 	return MR_OK;
 }
@@ -122,7 +109,7 @@ mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer)
 	const char *text;
 	size_t n, first;
 
-	MR_TRY(get_order(ctx, f, &text, &n));
+	MR_TRY(mr_frame_lines(ctx, f, "latest", &text, &n));
 	*layer = NULL;
 	first = n;
 	for (size_t i = 0; i < f->count; i++) {

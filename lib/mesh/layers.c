@@ -84,18 +84,6 @@ mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, cons
 	return c ? mr_frame_put(ctx, f, layer, name, c->shape, data, rows) : unknown(ctx, layer, name);
 }
 
-mr_status
-mr_layer_put_wide(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, uint8_t components,
-    const void *data, size_t rows)
-{
-	const mr_column_info *c = mr_column_of(layer, name);
-
-	if (!c)
-		return unknown(ctx, layer, name);
-	return mr_frame_put(
-	    ctx, f, layer, name, (mr_shape){ c->shape.element, c->shape.type, components }, data, rows);
-}
-
 static mr_status
 check_finite(mr_ctx *ctx, const mr_mesh *m)
 {
@@ -120,15 +108,6 @@ check_indices(mr_ctx *ctx, const mr_mesh *m)
 /* In the order of what makes them: MR_MAKE_MESH and on. */
 static const char *const made[] = { "mesh", "points", "base", "control", "displacement", "handles" };
 
-static bool
-is_first_of_layer(const mr_frame *f, size_t i)
-{
-	for (size_t k = 0; k < i; k++)
-		if (!strcmp(f->columns[k].layer, f->columns[i].layer))
-			return false;
-	return true;
-}
-
 void
 mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **names)
 {
@@ -137,7 +116,7 @@ mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **
 
 	for (size_t i = 0; i < f->count; i++) {
 		const char *layer = f->columns[i].layer;
-		if (*layer && !(except && !strcmp(layer, except)) && is_first_of_layer(f, i))
+		if (mr_frame_begins_layer(f, i) && !(except && !strcmp(layer, except)))
 			mr_text_name(&list, &n, layer);
 	}
 	mr_text_more(&list, n);

@@ -22,11 +22,9 @@ mr_layer_get(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, cons
 mr_status mr_layer_get_rows(
     mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, size_t rows, const void **data);
 
-/* Puts a column of the table; the shape is the table's (components where the table has 0 there). */
+/* Puts a column of the table; the shape is the table's. */
 mr_status
 mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void *data, size_t rows);
-mr_status mr_layer_put_wide(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, uint8_t components,
-    const void *data, size_t rows);
 
 /* mr_layer_points and mr_layer_mesh for what multiplies no lengths: coordinates beyond 1e30, or all below
  * 1e-30, are no failure. */

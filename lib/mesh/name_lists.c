@@ -7,6 +7,15 @@ const mr_naming mr_namings[MR_NAMINGS] = {
 	{ "material", "materials" },
 };
 
+const char *
+mr_names_of(const char *column)
+{
+	for (size_t i = 0; i < MR_NAMINGS; i++)
+		if (!strcmp(mr_namings[i].column, column))
+			return mr_namings[i].list;
+	return NULL;
+}
+
 void
 mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count)
 {

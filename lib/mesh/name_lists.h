@@ -20,4 +20,7 @@ typedef struct mr_naming {
 
 extern const mr_naming mr_namings[MR_NAMINGS];
 
+/* The list of the names that a column has the numbers of; NULL: it has none. */
+const char *mr_names_of(const char *column);
+
 #endif

@@ -1,6 +1,8 @@
 /* Law by law, each with the sentence that names what breaks it. */
 #include "mesh/validate.h"
 
+#include "mesh/name_lists.h"
+
 static const double SUM_TOLERANCE = 1e-9;
 
 static bool
@@ -135,6 +137,7 @@ check_names(mr_ctx *ctx, mr_frame *f, const mr_column *c, const char *list)
 static mr_status
 check_column(mr_ctx *ctx, mr_frame *f, mr_column *c)
 {
+	const char *names = mr_names_of(c->name);
 	const uint32_t *region;
 
 	MR_TRY(mr_prefix(ctx, mr_column_decode(ctx, c), "%s: column %s", c->layer, c->name));
@@ -145,12 +148,7 @@ check_column(mr_ctx *ctx, mr_frame *f, mr_column *c)
 	MR_TRY(mr_check_finite(ctx, c));
 	if (is(c, "region"))
 		return mr_layer_region(ctx, f, c->layer, c->rows, &region);
-	if (is(c, "group") || is(c, "object") || is(c, "material")) {
-		char list[MR_COLUMN_MAX + 1];
-		snprintf(list, sizeof list, "%.*ss", MR_COLUMN_MAX - 1, c->name);
-		return check_names(ctx, f, c, list);
-	}
-	return check_law(ctx, f, c);
+	return names ? check_names(ctx, f, c, names) : check_law(ctx, f, c);
 }
 
 mr_status

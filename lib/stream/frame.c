@@ -248,27 +248,35 @@ mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element
 	frame->count = kept;
 }
 
-/* The lines of a column of no layer, or none. */
-static mr_status
-lines_of(mr_ctx *ctx, mr_frame *frame, const char *name, const void **text, size_t *n)
+mr_status
+mr_frame_lines(mr_ctx *ctx, mr_frame *frame, const char *name, const char **text, size_t *n)
 {
-	*text = "";
+	const void *data = "";
+
 	*n = 0;
-	if (!mr_frame_find(frame, "", name))
-		return MR_OK;
-	return mr_frame_get(ctx, frame, "", name, TEXT, text, n);
+	if (mr_frame_find(frame, "", name))
+		MR_TRY(mr_frame_get(ctx, frame, "", name, TEXT, &data, n));
+	*text = data;
+	return MR_OK;
+}
+
+bool
+mr_frame_begins_layer(const mr_frame *frame, size_t i)
+{
+	for (size_t k = 0; k < i; k++)
+		if (!strcmp(frame->columns[k].layer, frame->columns[i].layer))
+			return false;
+	return *frame->columns[i].layer;
 }
 
 mr_status
 mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
 {
 	mr_text text = { .ctx = ctx };
-	const void *old;
 	const char *lines;
 	size_t n;
 
-	MR_TRY(lines_of(ctx, frame, "history", &old, &n));
-	lines = old;
+	MR_TRY(mr_frame_lines(ctx, frame, "history", &lines, &n));
 	mr_text_bytes(&text, lines, n);
 	if (n && lines[n - 1] != '\n')
 		mr_text_bytes(&text, "\n", 1);
@@ -281,12 +289,12 @@ static mr_status
 merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 {
 	mr_text text = { .ctx = ctx };
-	const void *lines;
+	const char *lines;
 	size_t n;
 
-	MR_TRY(lines_of(ctx, frame, name, &lines, &n));
+	MR_TRY(mr_frame_lines(ctx, frame, name, &lines, &n));
 	mr_text_bytes(&text, lines, n);
-	MR_TRY(lines_of(ctx, from, name, &lines, &n));
+	MR_TRY(mr_frame_lines(ctx, from, name, &lines, &n));
 	mr_text_bytes(&text, lines, n);
 	return mr_frame_put(ctx, frame, "", name, TEXT, text.s, text.n);
 }

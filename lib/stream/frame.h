@@ -85,6 +85,12 @@ mr_status mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column);
  */
 mr_status mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from);
 
+/* The text of a column of no layer, a line each; none where it is not there. */
+mr_status mr_frame_lines(mr_ctx *ctx, mr_frame *frame, const char *name, const char **text, size_t *n);
+
+/* Whether column i is the first of a layer. */
+bool mr_frame_begins_layer(const mr_frame *frame, size_t i);
+
 /* Appends one line to the frame's history; control characters and bytes that are not UTF-8 become '?'. */
 mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);
 
