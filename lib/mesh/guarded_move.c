@@ -94,12 +94,13 @@ turns(const void *arg, uint32_t f)
 	const uint32_t *v = s->from.t[f].v;
 	const mr_v3 *p = s->from.p, *q = s->to.p;
 	mr_v3 before = mr_face_cross(&s->from, f), after = mr_face_cross(&s->to, f);
-	double turn = mr_dot(before, after);
+	double turn = mr_dot(before, after), area2 = mr_norm2(after);
+	double least = s->needle * mr_dyn_longest2(q[v[0]], q[v[1]], q[v[2]]);
 
-	double shape = mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]);
-
-	return (shape < s->needle && shape < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]])) ||
-	       turn <= TURN * sqrt(mr_norm2(before) * mr_norm2(after)) ||
+	if (area2 < least * least &&
+	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
+		return true;
+	return turn <= 0 || turn * turn <= TURN * TURN * mr_norm2(before) * area2 ||
 	       mr_folds_more(&s->from, &s->to, s->twin, f, MR_NEAR_FOLD);
 }
 
