@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "solve/preconditioner.h"
+#include "subdivide/loop_ring.h"
 
 enum { GRAIN = 16, PIECE = 512 }; /* control faces */
 
@@ -42,20 +43,11 @@ patches_of(mr_ctx *ctx, const mr_fit_surface *s, mr_sparse *patch)
 static size_t
 neighbours_of(const mr_loop *l, uint32_t v, bool sharp, uint32_t *list)
 {
-	const mr_mesh m = { .t = l->t, .nv = l->nv, .nf = l->nf };
-	uint32_t first = l->topo.out[v], h = first;
 	size_t n = 0;
 
-	while (h != MR_NONE) {
-		uint32_t last = mr_he_prev(h);
-		if (!sharp || l->topo.twin[h] == MR_NONE || (l->crease && l->crease[h]))
-			list[n++] = mr_he_to(&m, h);
-		h = mr_he_ccw(&l->topo, h);
-		if (h == MR_NONE)
-			list[n++] = mr_he_from(&m, last);
-		if (h == first)
-			break;
-	}
+	for (mr_loop_ring r = mr_loop_ring_begin(l, v); r.more; mr_loop_ring_step(&r))
+		if (!sharp || r.sharp)
+			list[n++] = r.to;
 	return n;
 }
 

@@ -189,31 +189,21 @@ validate(mr_ctx *ctx, validation *x, double exponent, double *result)
 	return MR_OK;
 }
 
-/* Golden section: where the score is least, to a third of a decade, the score being flat there. */
+/* Where the score is least, to a third of a decade, the score being flat there. */
 static mr_status
-search(mr_ctx *ctx, validation *x, double low, double high, double *exponent)
+search(mr_ctx *ctx, validation *x, double *exponent)
 {
-	static const double golden = 0.6180339887498949, close = 0.6;
-	double a = high - golden * (high - low), b = low + golden * (high - low), of_a, of_b;
+	enum { TRIALS = 6 };
+	static const double low = -3.3, step = 0.7;
+	double least = INFINITY;
 
-	MR_TRY(validate(ctx, x, a, &of_a));
-	MR_TRY(validate(ctx, x, b, &of_b));
-	while (high - low > close) {
-		if (of_a < of_b) {
-			high = b;
-			b = a;
-			of_b = of_a;
-			a = high - golden * (high - low);
-			MR_TRY(validate(ctx, x, a, &of_a));
-		} else {
-			low = a;
-			a = b;
-			of_a = of_b;
-			b = low + golden * (high - low);
-			MR_TRY(validate(ctx, x, b, &of_b));
-		}
+	for (int i = 0; i < TRIALS; i++) {
+		double at = low + step * i, now;
+		MR_TRY(validate(ctx, x, at, &now));
+		if (now < least)
+			*exponent = at;
+		least = fmin(least, now);
 	}
-	*exponent = (low + high) / 2;
 	return MR_OK;
 }
 
@@ -221,17 +211,16 @@ mr_status
 mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, const mr_mesh *surface,
     const double *height, size_t steps, double *factor)
 {
-	static const double low = -3.5, high = 0.3;
 	mr_mark mark = mr_mark_take(ctx);
 	validation x = { e, wish, n, surface->t, height, steps, MR_NEW_ZERO(ctx, e->n, bool),
 		MR_NEW(ctx, e->n, uint32_t), 0, MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double),
 		MR_NEW_ZERO(ctx, e->n, double), MR_NEW(ctx, e->n, double) };
-	double exponent;
+	double exponent = 0;
 
 	memcpy(x.fair, e->fair, e->n * sizeof *x.fair);
 	take_part(&x, surface->nf);
 	build_probe(&x);
-	MR_TRY(search(ctx, &x, low, high, &exponent));
+	MR_TRY(search(ctx, &x, &exponent));
 	*factor = pow(10, exponent);
 	for (size_t i = 0; i < e->n; i++)
 		e->fair[i] = *factor * x.fair[i];

@@ -1,8 +1,6 @@
 /*
  * loop_ring.h -- the neighbours of a vertex of a Loop surface in order, what kind of vertex it is, and the
  * weights that its kind has.
- *
- * Private to this room.
  */
 #ifndef MR_SUBDIVIDE_LOOP_RING_H
 #define MR_SUBDIVIDE_LOOP_RING_H
