@@ -21,51 +21,22 @@ agrees(const mr_mesh *m, uint32_t face, mr_v3 normal)
 	return mr_dot(mr_face_cross(m, face), normal) > 0;
 }
 
-typedef struct search {
-	const mr_mesh *m;
-	mr_v3 q, normal;
-	mr_closest best;
-} search;
-
-static bool
-keep_nearer(void *arg, uint32_t face)
-{
-	search *s = arg;
-	mr_closest c = mr_face_closest(s->m, face, s->q);
-
-	if ((c.dist2 < s->best.dist2 || (c.dist2 == s->best.dist2 && face < s->best.at.face)) &&
-	    agrees(s->m, face, s->normal))
-		s->best = c;
-	return true;
-}
-
 /*
  * A walk stays on its sheet but may end at a local minimum.  Where a place is nearer than that it counts, if
- * its face looks to the same side as the vertex; else it is that of another sheet, and the nearest
- * of all that do is looked for as far as the walk's end.
+ * its face looks to the same side as the vertex; else it is that of another sheet.
  */
 static mr_closest
 place(const place_job *j, size_t i)
 {
 	static const double rounding = 1e-12;
-	mr_v3 q = j->from->p[i], n = j->normal[i];
-	search s = { j->m, q, n, { .at.face = MR_NONE } };
-	mr_closest near;
-	double reach;
+	mr_v3 q = j->from->p[i];
+	mr_closest walked, near;
 
 	if (j->start[i] == MR_NONE)
 		return mr_bvh_closest(j->bvh, q);
-	s.best = mr_project_walk(j->m, j->topo, j->topo->out[j->start[i]] / 3, q);
-	near = mr_bvh_closest_within(j->bvh, q, (1 - rounding) * s.best.dist2);
-	if (near.at.face == MR_NONE)
-		return s.best;
-	if (agrees(j->m, near.at.face, n))
-		return near;
-	reach = sqrt(s.best.dist2);
-	mr_bvh_overlap(j->bvh,
-	    (mr_box){ mr_sub(q, mr_vec(reach, reach, reach)), mr_add(q, mr_vec(reach, reach, reach)) },
-	    keep_nearer, &s);
-	return s.best;
+	walked = mr_project_walk(j->m, j->topo, j->topo->out[j->start[i]] / 3, q);
+	near = mr_bvh_closest_within(j->bvh, q, (1 - rounding) * walked.dist2);
+	return near.at.face != MR_NONE && agrees(j->m, near.at.face, j->normal[i]) ? near : walked;
 }
 
 static void

@@ -40,8 +40,8 @@ mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_clo
 
 /*
  * Where the vertices of m lie on the result: the nearest point, where its face looks to the same side as the
- * vertex or a walk from the vertex that it was merged into comes there; where sheets are near, the nearest of
- * their own; isolated ones at the nearest point of all.  map: m->nv rows, in the arena.
+ * vertex, else where a walk from the vertex that it was merged into ends; isolated ones at the nearest point.
+ * map: m->nv rows, in the arena.
  */
 mr_status
 mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map);
