@@ -78,86 +78,56 @@ node_map(const mr_gltf *g, const json_t *node, mr_affine *map)
 	return MR_OK;
 }
 
-/* The walk up from each node to what it hangs from. */
+/* The walk down from the roots of the scene. */
 typedef struct walk {
 	const mr_gltf *g;
 	size_t nodes;
-	size_t *parent; /* of each node; MR_UNKNOWN: it hangs from none */
-	mr_affine *map; /* of those that are done */
-	bool *done, *shown;
-	size_t *path; /* workspace */
-	instances *s;
-	size_t room;
+	bool *shown;
+	mr_affine *map; /* of those that are shown: of what they hang from, until the walk comes to them */
+	size_t *left;   /* to come to */
+	size_t count;
+	size_t room; /* of instances */
 } walk;
 
+/* The walk is to come to the nodes of a list, which hang from what has this map. */
 static mr_status
-find_parents(walk *w)
+go_on(walk *w, const json_t *list, const mr_affine *above)
 {
-	for (size_t i = 0; i < w->nodes; i++)
-		w->parent[i] = MR_UNKNOWN;
-	for (size_t i = 0; i < w->nodes; i++) {
-		const json_t *list = json_object_get(mr_gltf_at(w->g, "nodes", i), "children");
-		for (size_t k = 0; k < json_array_size(list); k++) {
-			json_int_t child = json_integer_value(json_array_get(list, k));
-			if (child < 0 || (uint64_t)child >= w->nodes)
-				return mr_fail(w->g->ctx, MR_EFORMAT,
-				    "node %zu: a child is none of the %zu nodes", i, w->nodes);
-			if (w->parent[child] != MR_UNKNOWN)
-				return mr_fail(w->g->ctx, MR_EFORMAT, "node %zu hangs from more than one",
-				    (size_t)child);
-			w->parent[child] = i;
-		}
-	}
-	return MR_OK;
-}
-
-/* Shows the scene's roots.  Without a scene, all nodes that have no parent are roots. */
-static mr_status
-show_roots(walk *w, size_t scene)
-{
-	const json_t *list = json_object_get(mr_gltf_at(w->g, "scenes", scene), "nodes");
-
-	for (size_t i = 0; scene == MR_UNKNOWN && i < w->nodes; i++)
-		w->shown[i] = w->parent[i] == MR_UNKNOWN;
-	for (size_t i = 0; i < json_array_size(list); i++) {
-		json_int_t node = json_integer_value(json_array_get(list, i));
+	for (size_t k = 0; k < json_array_size(list); k++) {
+		json_int_t node = json_integer_value(json_array_get(list, k));
 		if (node < 0 || (uint64_t)node >= w->nodes)
+			return mr_fail(
+			    w->g->ctx, MR_EFORMAT, "a scene or a node names none of the %zu nodes", w->nodes);
+		if (w->shown[node])
 			return mr_fail(w->g->ctx, MR_EFORMAT,
-			    "the scene names a node that is none of the %zu", w->nodes);
+			    "node %zu hangs from more than one, or from itself", (size_t)node);
 		w->shown[node] = true;
+		w->map[node] = *above;
+		w->left[w->count++] = (size_t)node;
 	}
 	return MR_OK;
 }
 
-/* Composes the maps down to a node, and to those between that have none yet. */
 static mr_status
-place(walk *w, size_t node)
+place_nodes(walk *w, const json_t *roots)
 {
-	size_t n = 0;
+	const mr_affine identity = mr_identity();
+	mr_affine own = identity;
 
-	for (size_t at = node; at != MR_UNKNOWN && !w->done[at]; at = w->parent[at]) {
-		if (n == w->nodes)
-			return mr_fail(w->g->ctx, MR_EFORMAT, "node %zu hangs from itself", node);
-		w->path[n++] = at;
-	}
-	while (n-- > 0) {
-		size_t at = w->path[n], above = w->parent[at];
-		MR_TRY(mr_prefix(
-		    w->g->ctx, node_map(w->g, mr_gltf_at(w->g, "nodes", at), &w->map[at]), "node %zu", at));
-		if (above != MR_UNKNOWN) {
-			w->map[at] = mr_compose(&w->map[above], &w->map[at]);
-			w->shown[at] |= w->shown[above];
-		}
-		w->done[at] = true;
+	MR_TRY(go_on(w, roots, &identity));
+	while (w->count > 0) {
+		size_t at = w->left[--w->count];
+		const json_t *node = mr_gltf_at(w->g, "nodes", at);
+		MR_TRY(mr_prefix(w->g->ctx, node_map(w->g, node, &own), "node %zu", at));
+		w->map[at] = mr_compose(&w->map[at], &own);
+		MR_TRY(go_on(w, json_object_get(node, "children"), &w->map[at]));
 	}
 	return MR_OK;
 }
 
 static void
-add_instance(walk *w, size_t mesh, const mr_affine *map, const char *name)
+add_instance(walk *w, instances *s, size_t mesh, const mr_affine *map, const char *name)
 {
-	instances *s = w->s;
-
 	MR_RESERVE(w->g->ctx, s->instance, s->count, 1, &w->room);
 	s->instance[s->count++] = (instance){ .mesh = mesh,
 		.map = *map,
@@ -165,26 +135,23 @@ add_instance(walk *w, size_t mesh, const mr_affine *map, const char *name)
 }
 
 static mr_status
-visit(walk *w, size_t node)
+visit(walk *w, instances *s, size_t node)
 {
 	const json_t *json = mr_gltf_at(w->g, "nodes", node);
 	size_t mesh;
 
-	MR_TRY(place(w, node));
 	MR_TRY(mr_prefix(w->g->ctx, mr_gltf_index(w->g, json, "mesh", "meshes", &mesh), "node %zu", node));
 	if (mesh == MR_UNKNOWN)
 		return MR_OK;
-	w->s->unseen += !w->shown[node];
+	s->unseen += !w->shown[node];
 	if (!w->shown[node])
 		return MR_OK;
-	w->s->several += json_object_get(json_object_get(json, "extensions"), "EXT_mesh_gpu_instancing") !=
-	                 NULL;
-	add_instance(w, mesh, &w->map[node], mr_gltf_name(json));
+	s->several += json_object_get(json_object_get(json, "extensions"), "EXT_mesh_gpu_instancing") != NULL;
+	add_instance(w, s, mesh, &w->map[node], mr_gltf_name(json));
 	return MR_OK;
 }
 
-/* The meshes of the scene that is to be shown, or, where there is no scene and no node, all meshes as they
- * are. */
+/* The meshes of the scene that is to be shown; without a scene, all meshes as they are. */
 static mr_status
 find_scene(const mr_gltf *g, instances *s)
 {
@@ -192,23 +159,20 @@ find_scene(const mr_gltf *g, instances *s)
 	size_t n = mr_gltf_size(g, "nodes"), scenes = mr_gltf_size(g, "scenes"), scene;
 	walk w = { .g = g,
 		.nodes = n,
-		.s = s,
-		.parent = MR_NEW(g->ctx, n, size_t),
-		.path = MR_NEW(g->ctx, n, size_t),
+		.shown = MR_NEW_ZERO(g->ctx, n, bool),
 		.map = MR_NEW(g->ctx, n, mr_affine),
-		.done = MR_NEW_ZERO(g->ctx, n, bool),
-		.shown = MR_NEW_ZERO(g->ctx, n, bool) };
+		.left = MR_NEW(g->ctx, n, size_t) };
 
 	*s = (instances){ 0 };
 	MR_TRY(mr_gltf_index(g, g->root, "scene", "scenes", &scene));
-	if (scenes && scene == MR_UNKNOWN)
-		scene = 0;
-	MR_TRY(find_parents(&w));
-	MR_TRY(show_roots(&w, scene));
+	for (size_t i = 0; scenes == 0 && i < mr_gltf_size(g, "meshes"); i++)
+		add_instance(&w, s, i, &identity, NULL);
+	if (scenes == 0)
+		return MR_OK;
+	MR_TRY(place_nodes(
+	    &w, json_object_get(mr_gltf_at(g, "scenes", scene == MR_UNKNOWN ? 0 : scene), "nodes")));
 	for (size_t i = 0; i < n; i++)
-		MR_TRY(visit(&w, i));
-	for (size_t i = 0; scenes + s->count == 0 && i < mr_gltf_size(g, "meshes"); i++)
-		add_instance(&w, i, &identity, NULL);
+		MR_TRY(visit(&w, s, i));
 	return MR_OK;
 }
 

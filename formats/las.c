@@ -138,10 +138,8 @@ is_told(const unsigned char *data, const las *l, size_t i)
 static mr_status
 add_columns(const unsigned char *data, const las *l, mr_rows *r, bool told[FIELDS])
 {
-	for (mr_role k = MR_X; k <= MR_Z; k++)
-		mr_rows_add(r, k, "", 0, NULL);
-	for (mr_role k = MR_RED; l->color && k <= MR_BLUE; k++)
-		mr_rows_add(r, k, "", 0, NULL);
+	mr_rows_add_unnamed(r, MR_X, 3);
+	mr_rows_add_unnamed(r, MR_RED, l->color ? 3 : 0);
 	for (size_t i = 0; i < FIELDS; i++) {
 		told[i] = (fields[i].in >> l->format & 1) && is_told(data, l, i);
 		if (told[i])

@@ -434,12 +434,10 @@ finish(obj *o, mr_model *m)
 static mr_status
 begin_vertices(obj *o)
 {
-	static const mr_role roles[] = { MR_X, MR_Y, MR_Z, MR_RED, MR_GREEN, MR_BLUE };
-
 	o->rows.b = &o->b;
 	o->rows.sparse = true;
-	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-		mr_rows_add(&o->rows, roles[i], "", 0, NULL);
+	mr_rows_add_unnamed(&o->rows, MR_X, 3);
+	mr_rows_add_unnamed(&o->rows, MR_RED, 3);
 	mr_rows_begin(&o->rows);
 	return mr_rows_room(&o->rows, o->v_all);
 }

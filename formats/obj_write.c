@@ -33,26 +33,22 @@ put_value(mr_sink *s, const values *x, const double *value)
 	mr_put_reals(s, value, x->width, '\n');
 }
 
-/* Writes each value of corners once, in order of first use. */
-static mr_status
-put_corner_values(mr_sink *s, values *x, size_t corners)
+/* The values of vertices, or each of corners once, in order of first use. */
+static void
+put_values(mr_sink *s, const mr_model *m, values *x)
 {
-	uint32_t *first = MR_NEW(s->ctx, corners, uint32_t);
-	size_t lines;
+	size_t corners = 3 * m->nf, lines;
+	uint32_t *first;
 
+	for (size_t i = 0; x->vertex && i < m->nv; i++)
+		put_value(s, x, x->vertex + x->width * i);
+	if (x->vertex || !x->corner)
+		return;
+	first = MR_NEW(s->ctx, corners, uint32_t);
 	x->place = MR_NEW(s->ctx, corners, uint32_t);
 	mr_number_rows(s->ctx, x->corner, x->width, corners, x->place, first, &lines);
 	for (size_t i = 0; i < lines; i++)
 		put_value(s, x, x->corner + x->width * first[i]);
-	return MR_OK;
-}
-
-static mr_status
-put_values(mr_sink *s, const mr_model *m, values *x)
-{
-	for (size_t i = 0; x->vertex && i < m->nv; i++)
-		put_value(s, x, x->vertex + x->width * i);
-	return x->vertex || !x->corner ? MR_OK : put_corner_values(s, x, 3 * m->nf);
 }
 
 /* The line of a corner's value; 0 where it has none. */
@@ -181,8 +177,8 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 	put_libraries(s, m->mtllib);
 	for (size_t i = 0; i < m->nv; i++)
 		put_vertex(s, m, i);
-	MR_TRY(put_values(s, m, &x[0]));
-	MR_TRY(put_values(s, m, &x[1]));
+	put_values(s, m, &x[0]);
+	put_values(s, m, &x[1]);
 	MR_TRY(mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib));
 	put_faces(s, m, x);
 	return MR_OK;

@@ -68,13 +68,10 @@ enum { MOST = 3 + 3 + 4 + 2 };
 static mr_status
 begin_vertices(off *f)
 {
-	static const mr_role roles[MOST] = { MR_X, MR_Y, MR_Z, MR_NX, MR_NY, MR_NZ, MR_RED, MR_GREEN, MR_BLUE,
-		MR_ALPHA, MR_U, MR_V };
-
-	for (size_t i = 0; i < MOST; i++)
-		if (i < 3 || (i < 6 && f->normals) || (i >= 6 && i < 10 && f->colors) ||
-		    (i >= 10 && f->texcoords))
-			mr_rows_add(&f->rows, roles[i], "", 0, NULL);
+	mr_rows_add_unnamed(&f->rows, MR_X, 3);
+	mr_rows_add_unnamed(&f->rows, MR_NX, f->normals ? 3 : 0);
+	mr_rows_add_unnamed(&f->rows, MR_RED, f->colors ? 4 : 0);
+	mr_rows_add_unnamed(&f->rows, MR_U, f->texcoords ? 2 : 0);
 	mr_rows_begin(&f->rows);
 	return mr_rows_room(&f->rows, f->nv);
 }

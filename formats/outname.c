@@ -51,10 +51,6 @@ mr_outname_once(
     mr_ctx *ctx, mr_string_set *given, const char *pattern, const char *frame, uint64_t number, char **name)
 {
 	MR_TRY(mr_outname(ctx, pattern, frame, number, name));
-	if (mr_string_set_has(given, *name) && !strcmp(*name, "-"))
-		return mr_fail(ctx, MR_EUSAGE,
-		    "stdout takes one frame, not frame %llu too: name a file, with %%d in it",
-		    (unsigned long long)number);
 	if (mr_string_set_has(given, *name))
 		return mr_fail(ctx, MR_EUSAGE,
 		    "%s holds an earlier frame than frame %llu: put %%d, the number of the frame, into the "

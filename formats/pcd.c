@@ -124,12 +124,10 @@ add_columns(pcd *f)
 
 	for (size_t i = 0; i < f->fields; i++)
 		add_field(f, &f->field[i]);
-	for (mr_role k = MR_RED; f->rgb && k <= MR_BLUE; k++)
-		mr_rows_add(&f->rows, k, "", 0, NULL);
+	mr_rows_add_unnamed(&f->rows, MR_RED, f->rgb ? 3 : 0);
 	if (f->rgb)
 		f->rows.shades[0].full = 255;
-	for (mr_role k = MR_FROM_X; seen && k <= MR_FROM_Z; k++)
-		mr_rows_add(&f->rows, k, "", 0, NULL);
+	mr_rows_add_unnamed(&f->rows, MR_FROM_X, seen ? 3 : 0);
 	mr_rows_begin(&f->rows);
 }
 

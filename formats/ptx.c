@@ -105,11 +105,10 @@ read_point(ptx *f, const scan *s)
 static void
 begin(ptx *f)
 {
-	static const mr_role roles[] = { MR_X, MR_Y, MR_Z, MR_NO_ROLE, MR_RED, MR_GREEN, MR_BLUE, MR_FROM_X,
-		MR_FROM_Y, MR_FROM_Z };
-
-	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-		mr_rows_add(&f->rows, roles[i], "intensity", strlen("intensity"), "double");
+	mr_rows_add_unnamed(&f->rows, MR_X, 3);
+	mr_rows_add(&f->rows, MR_NO_ROLE, "intensity", strlen("intensity"), "double");
+	mr_rows_add_unnamed(&f->rows, MR_RED, 3);
+	mr_rows_add_unnamed(&f->rows, MR_FROM_X, 3);
 	mr_rows_begin(&f->rows);
 }
 

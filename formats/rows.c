@@ -35,6 +35,13 @@ mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char
 	r->at[role] = role == MR_NO_ROLE ? 0 : r->columns;
 }
 
+void
+mr_rows_add_unnamed(mr_rows *r, mr_role first, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		mr_rows_add(r, (mr_role)(first + i), "", 0, NULL);
+}
+
 /* What columns make together: as many roles from the first on, of which `needed` must be there. */
 static const struct {
 	mr_role first;

@@ -59,6 +59,9 @@ typedef struct mr_rows {
 /* A column more; the first of a role has it.  The name is copied, cleaned. */
 void mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char *type);
 
+/* n columns more without names, of the roles from the first on. */
+void mr_rows_add_unnamed(mr_rows *r, mr_role first, size_t n);
+
 /* Parts without the whole are properties from now on. */
 void mr_rows_begin(mr_rows *r);
 
