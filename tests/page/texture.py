@@ -121,8 +121,8 @@ def balls(b):
     b.press("e")
     check(b.picture() == worn, "smooth again, without edges, it looks otherwise")
     as_rendered(b, "sphere")
-    b.open("torus.html")
-    as_rendered(b, "torus")
+    b.open("cylinder.html")
+    as_rendered(b, "cylinder")
 
 
 def bright(b, points):

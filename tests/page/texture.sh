@@ -3,9 +3,9 @@
 . "$TOP/tests/page/begin"
 python3 "$TOP/tests/page/texture.py" pictures || exit
 mr-make sphere -n 3000 --texcoords -o sphere.mrs
-mr-make torus -n 3000 --texcoords -o torus.mrs
-mr-view --texture checks.png both.html sphere.mrs torus.mrs || exit
-for model in sphere torus; do
+mr-make cylinder -n 3000 --texcoords -o cylinder.mrs
+mr-view --texture checks.png both.html sphere.mrs cylinder.mrs || exit
+for model in sphere cylinder; do
 	mr-view --texture checks.png -i $model.mrs $model.html || exit
 	for view in front back left; do
 		mr-render -s 984x800 --no-labels --view $view --texture checks.png -i $model.mrs $model-$view.png ||
