@@ -66,7 +66,6 @@ mr_mat3_determinant(const mr_mat3 *a)
 	       m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 
-/* The linear part of an affine map. */
 /* a + s y x^T */
 static inline void
 mr_mat3_add_product(mr_mat3 *a, double s, mr_v3 y, mr_v3 x)
@@ -91,6 +90,7 @@ mr_mat3_inverse_transposed(const mr_mat3 *a)
 	return c;
 }
 
+/* The linear part of an affine map. */
 static inline mr_mat3
 mr_affine_linear(const mr_affine *t)
 {

@@ -77,14 +77,9 @@ mr_text_name(mr_text *t, size_t *n, const char *name)
 {
 	if (*n < NAMED)
 		mr_text_add(t, "%s%s", *n ? ", " : "", name);
+	else if (*n == NAMED)
+		mr_text_add(t, ", ...");
 	++*n;
-}
-
-void
-mr_text_more(mr_text *t, size_t n)
-{
-	if (n > NAMED)
-		mr_text_add(t, " and %zu more", n - NAMED);
 }
 
 void

@@ -24,10 +24,9 @@ void mr_text_json(mr_text *t, const char *s, size_t n);
 /* Appends n bytes for people to read in a line: what is not UTF-8, and control characters, become '?'. */
 void mr_text_line(mr_text *t, const char *s, size_t n);
 
-/* Appends a name to a list of *n so far, at first 0, with a comma between two; the 13th and later are only
- * counted, for mr_text_more, which says at the end how many those are. */
+/* Appends a name to a list of *n so far, at first 0, with a comma between two; for the 13th and later three
+ * dots stand. */
 void mr_text_name(mr_text *t, size_t *n, const char *name);
-void mr_text_more(mr_text *t, size_t n);
 
 /* Appends a number with all its digits, or null where it is not finite. */
 void mr_text_number(mr_text *t, double x);

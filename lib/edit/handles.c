@@ -195,7 +195,6 @@ no_such_handle(mr_ctx *ctx, const mr_handles *h, size_t handle)
 			snprintf(number, sizeof number, "%zu", i);
 			mr_text_name(&used, &n, number);
 		}
-	mr_text_more(&used, n);
 	return mr_fail(
 	    ctx, MR_EMISSING, "no vertex is in handle %zu; handles in use: %s", handle, n ? used.s : "none");
 }

@@ -119,7 +119,6 @@ mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **
 		if (mr_frame_begins_layer(f, i) && !(except && !strcmp(layer, except)))
 			mr_text_name(&list, &n, layer);
 	}
-	mr_text_more(&list, n);
 	*names = n ? list.s : "";
 }
 

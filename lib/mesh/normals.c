@@ -20,14 +20,6 @@ typedef struct turning {
 	mr_v3 *to;
 } turning;
 
-/* b a^T added to r. */
-static void
-add_product(mr_mat3 *r, mr_v3 b, mr_v3 a)
-{
-	for (int i = 0; i < 9; i++)
-		r->m[i] += mr_coordinate(b, i / 3) * mr_coordinate(a, i % 3);
-}
-
 /* With the edges a, b and the normal n as columns of O, and as they are now of N, that nearest to N O^-1. */
 static mr_mat3
 nearest_rotation(mr_v3 a, mr_v3 b, mr_v3 now_a, mr_v3 now_b)
@@ -35,9 +27,9 @@ nearest_rotation(mr_v3 a, mr_v3 b, mr_v3 now_a, mr_v3 now_b)
 	mr_v3 n = mr_unit(mr_cross(a, b)), now_n = mr_unit(mr_cross(now_a, now_b));
 	mr_mat3 r = { { 0 } };
 
-	add_product(&r, now_a, mr_cross(b, n));
-	add_product(&r, now_b, mr_cross(n, a));
-	add_product(&r, mr_mul(mr_norm(mr_cross(a, b)), now_n), n);
+	mr_mat3_add_product(&r, 1, now_a, mr_cross(b, n));
+	mr_mat3_add_product(&r, 1, now_b, mr_cross(n, a));
+	mr_mat3_add_product(&r, mr_norm(mr_cross(a, b)), now_n, n);
 	return mr_rotation_nearest(&r);
 }
 
