@@ -199,8 +199,8 @@ typedef struct mr_kept {
 	size_t rows, room;
 } mr_kept;
 
-void
-mr_build_property(mr_builder *b, const char *name, const char *type, char element, size_t *number)
+size_t
+mr_build_property(mr_builder *b, const char *name, const char *type, char element)
 {
 	bool byte = !strcmp(type, "uchar"), whole = !strcmp(type, "ushort") || !strcmp(type, "uint");
 	mr_shape shape = { element, byte ? 'b' : whole ? 'u' : 'd', 1 };
@@ -211,7 +211,7 @@ mr_build_property(mr_builder *b, const char *name, const char *type, char elemen
 			*c = '_';
 	MR_RESERVE(b->ctx, b->kept, b->properties, 1, &b->property_room);
 	b->kept[b->properties++] = (mr_kept){ .p = { .name = own, .shape = shape } };
-	*number = b->properties;
+	return b->properties;
 }
 
 /* Rows below n that no value has come for, of faces that another element names, are 0. */

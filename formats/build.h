@@ -64,10 +64,10 @@ void mr_build_library(mr_builder *b, const char *name, size_t bytes);
 void mr_build_smoothing(mr_builder *b, uint32_t group);
 
 /*
- * A property under its name, of a type of PLY; those of vertices come before those of faces.  number: from 1.
- * Its values come row by row; with one that is not of a whole type all are doubles.
+ * A property under its name, of a type of PLY; those of vertices come before those of faces.  Its number,
+ * from 1. Its values come row by row; with one that is not of a whole type all are doubles.
  */
-void mr_build_property(mr_builder *b, const char *name, const char *type, char element, size_t *number);
+size_t mr_build_property(mr_builder *b, const char *name, const char *type, char element);
 void mr_build_value(mr_builder *b, size_t number, size_t row, double x);
 
 /* Reports values that are not finite as lost.  False where all n are. */

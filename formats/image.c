@@ -25,17 +25,20 @@ mr_image_fits(mr_ctx *ctx, size_t width, size_t height, size_t bytes, size_t mos
 }
 
 mr_status
+mr_image_decode(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image)
+{
+	if (mr_is_png(data, size))
+		return mr_png_read(ctx, data, size, image);
+	if (mr_is_jpeg(data, size))
+		return mr_jpeg_read(ctx, data, size, image);
+	return mr_fail(ctx, MR_EFORMAT, "neither a PNG nor a JPEG");
+}
+
+mr_status
 mr_image_read(mr_ctx *ctx, const char *path, mr_image *image)
 {
 	mr_file_bytes b = { 0 };
-	mr_status status;
 
 	MR_TRY(mr_file_bytes_read(ctx, path, &b));
-	if (mr_is_png(b.data, b.size))
-		status = mr_png_read(ctx, b.data, b.size, image);
-	else if (mr_is_jpeg(b.data, b.size))
-		status = mr_jpeg_read(ctx, b.data, b.size, image);
-	else
-		status = mr_fail(ctx, MR_EFORMAT, "neither a PNG nor a JPEG");
-	return mr_prefix(ctx, mr_file_bytes_end(&b, status), "%s", path);
+	return mr_prefix(ctx, mr_file_bytes_end(&b, mr_image_decode(ctx, b.data, b.size, image)), "%s", path);
 }

@@ -184,13 +184,12 @@ read_points(mr_ctx *ctx, const unsigned char *data, const las *l, mr_rows *r)
 mr_status
 mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	mr_builder b = { .ctx = ctx };
-	mr_rows r = { .b = &b };
+	mr_rows r = { .b.ctx = ctx };
 	las l = { 0 };
 
 	MR_TRY(read_header(ctx, data, size, &l));
 	MR_TRY(read_points(ctx, data, &l, &r));
 	mr_lost(ctx, NULL, l.record - formats[l.format].bytes, "more bytes of each point");
 	mr_rows_end(&r);
-	return mr_build_finish(&b, m);
+	return mr_build_finish(&r.b, m);
 }

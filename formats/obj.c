@@ -8,8 +8,7 @@
 
 typedef struct obj {
 	mr_ctx *ctx;
-	mr_scan text; /* of the whole file */
-	mr_builder b;
+	mr_scan text;     /* of the whole file */
 	const char *line; /* the face at hand, for errors */
 	char *face;       /* its line, as tinyobj reads it */
 	size_t face_room;
@@ -197,9 +196,9 @@ add_face(obj *o, const mr_obj_corner *c, size_t n)
 		uv |= t[i] != MR_NONE;
 		vn |= s[i] != MR_NONE;
 	}
-	if (n == 3 && !uv && !vn && mr_build_triangle(&o->b, v[0], v[1], v[2]))
+	if (n == 3 && !uv && !vn && mr_build_triangle(&o->rows.b, v[0], v[1], v[2]))
 		return MR_OK;
-	mr_build_face(&o->b, v, uv ? t : NULL, vn ? s : NULL, n);
+	mr_build_face(&o->rows.b, v, uv ? t : NULL, vn ? s : NULL, n);
 	return MR_OK;
 }
 
@@ -232,7 +231,7 @@ smoothing(obj *o, mr_scan *line)
 	for (; p < line->end && mr_is_digit(*p) && group <= UINT32_MAX; p++)
 		group = 10 * group + (uint64_t)(*p - '0');
 	if (p > line->p ? group <= UINT32_MAX && (p == line->end || mr_is_blank(*p)) : begins(line, "off"))
-		mr_build_smoothing(&o->b, (uint32_t)group);
+		mr_build_smoothing(&o->rows.b, (uint32_t)group);
 	else
 		o->others++;
 }
@@ -257,9 +256,9 @@ is_mark(obj *o, mr_scan *line)
 	if (words[i].what == MR_SMOOTHING)
 		smoothing(o, line);
 	else if (words[i].what == MR_MARKINGS)
-		mr_build_library(&o->b, line->p, (size_t)(line->end - line->p));
+		mr_build_library(&o->rows.b, line->p, (size_t)(line->end - line->p));
 	else
-		mr_build_mark(&o->b, words[i].what, line->p, (size_t)(line->end - line->p), false);
+		mr_build_mark(&o->rows.b, words[i].what, line->p, (size_t)(line->end - line->p), false);
 	return true;
 }
 
@@ -396,45 +395,44 @@ finish_texcoords(obj *o)
 {
 	const char *what = "texture coordinates";
 
-	if (are_of_vertices(o, o->b.corner_uv, o->no_texcoords, o->vt)) {
+	if (are_of_vertices(o, o->rows.b.corner_uv, o->no_texcoords, o->vt)) {
 		if (mr_all_left(o->ctx, o->odd_texcoords, o->vt, what))
-			o->b.m.texcoord = o->uv;
+			o->rows.b.m.texcoord = o->uv;
 		return;
 	}
 	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, what))
-		o->b.corner_uv = NULL;
+		o->rows.b.corner_uv = NULL;
 	mr_lost(o->ctx, NULL, o->no_texcoords, "texture coordinates that are not there");
 }
 
 static void
 finish_normals(obj *o)
 {
-	bool of_vertices = are_of_vertices(o, o->b.corner_vn, o->no_normals, o->vn);
+	bool of_vertices = are_of_vertices(o, o->rows.b.corner_vn, o->no_normals, o->vn);
 
 	if (!mr_normals_left(o->ctx, o->vn_values, o->vn))
-		o->b.corner_vn = NULL;
+		o->rows.b.corner_vn = NULL;
 	else if (of_vertices)
-		o->b.m.normal = o->vn_values;
+		o->rows.b.m.normal = o->vn_values;
 	mr_lost(o->ctx, NULL, o->no_normals, "normals that are not there");
 }
 
 static mr_status
 finish(obj *o, mr_model *m)
 {
-	o->b.uv = o->uv;
-	o->b.vn = o->vn_values;
+	o->rows.b.uv = o->uv;
+	o->rows.b.vn = o->vn_values;
 	mr_rows_end(&o->rows);
 	finish_texcoords(o);
 	finish_normals(o);
 	mr_lost(o->ctx, NULL, o->numbers, "weights, alpha or third texture coordinates");
 	mr_lost(o->ctx, NULL, o->others, "other statements");
-	return mr_build_finish(&o->b, m);
+	return mr_build_finish(&o->rows.b, m);
 }
 
 static mr_status
 begin_vertices(obj *o)
 {
-	o->rows.b = &o->b;
 	o->rows.sparse = true;
 	mr_rows_add_unnamed(&o->rows, MR_X, 3);
 	mr_rows_add_unnamed(&o->rows, MR_RED, 3);
@@ -445,16 +443,16 @@ begin_vertices(obj *o)
 mr_status
 mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	obj o = {
-		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .ungrouped = "default" }
-	};
+	obj o = { .ctx = ctx,
+		.text = mr_scan_of(ctx, data, size),
+		.rows.b = { .ctx = ctx, .ungrouped = "default" } };
 	mr_obj_calls calls = { line_call, face_call, &o };
 
 	count_lines(&o);
 	if (o.vn_all >= MR_NONE || o.vt_all >= MR_NONE)
 		return mr_fail(ctx, MR_ERANGE, "more normals or texture coordinates than indices can name");
 	MR_TRY(begin_vertices(&o));
-	MR_TRY(mr_build_reserve(&o.b, o.f_all));
+	MR_TRY(mr_build_reserve(&o.rows.b, o.f_all));
 	o.uv = MR_NEW(ctx, 2 * o.vt_all, double);
 	o.vn_values = MR_NEW(ctx, o.vn_all, mr_v3);
 	if (!mr_obj_parse(&calls))

@@ -9,7 +9,6 @@ typedef struct off {
 	mr_ctx *ctx;
 	mr_scan text;
 	bool normals, colors, texcoords;
-	mr_builder b;
 	mr_rows rows;
 	uint64_t nv, nf;
 	size_t face_colors; /* faces that have one */
@@ -151,9 +150,9 @@ read_face(off *f)
 		e = memchr(f->text.p, '\n', (size_t)(f->text.end - f->text.p));
 		f->text.p = e ? e : f->text.end;
 	}
-	if (n == 3 && mr_build_triangle(&f->b, f->corner[0], f->corner[1], f->corner[2]))
+	if (n == 3 && mr_build_triangle(&f->rows.b, f->corner[0], f->corner[1], f->corner[2]))
 		return MR_OK;
-	mr_build_face(&f->b, f->corner, NULL, NULL, (size_t)n);
+	mr_build_face(&f->rows.b, f->corner, NULL, NULL, (size_t)n);
 	return MR_OK;
 }
 
@@ -207,9 +206,9 @@ binary_face(off *f)
 	for (size_t k = 0; k < n; k++) {
 		f->corner[k] = mr_load32(p + 4 * k, false);
 		if (f->corner[k] >= f->nv)
-			return mr_scan_fail(&f->text, p, "vertex %u of %zu", f->corner[k], f->b.m.nv);
+			return mr_scan_fail(&f->text, p, "vertex %u of %zu", f->corner[k], f->rows.b.m.nv);
 	}
-	mr_build_face(&f->b, f->corner, NULL, NULL, n);
+	mr_build_face(&f->rows.b, f->corner, NULL, NULL, n);
 	return MR_OK;
 }
 
@@ -243,7 +242,7 @@ read_text(off *f)
 {
 	MR_TRY(read_counts(f));
 	MR_TRY(begin_vertices(f));
-	MR_TRY(mr_build_reserve(&f->b, f->nf < MR_NONE / 3 ? (size_t)f->nf : 0));
+	MR_TRY(mr_build_reserve(&f->rows.b, f->nf < MR_NONE / 3 ? (size_t)f->nf : 0));
 	for (uint64_t i = 0; i < f->nv; i++)
 		MR_TRY(read_vertex(f));
 	mr_rows_end(&f->rows);
@@ -256,15 +255,14 @@ read_text(off *f)
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	off f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
+	off f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .rows.b.ctx = ctx };
 
-	f.rows.b = &f.b;
 	keyword(&f);
 	MR_TRY(f.text.binary ? read_binary(&f) : read_text(&f));
 	mr_scan_rest(&f.text);
 	mr_lost(ctx, NULL, f.face_colors, "colors of faces");
 	mr_lost(ctx, NULL, f.ignored, "numbers behind vertices");
-	return mr_build_finish(&f.b, m);
+	return mr_build_finish(&f.rows.b, m);
 }
 
 /* ---- written ---- */

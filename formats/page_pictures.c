@@ -66,16 +66,6 @@ strip_jpeg(const unsigned char *p, size_t n, unsigned char *out)
 	return copy(out, used, p + at, n - at);
 }
 
-static mr_status
-decode(mr_ctx *ctx, const mr_file_bytes *b, mr_image *image)
-{
-	if (mr_is_png(b->data, b->size))
-		return mr_png_read(ctx, b->data, b->size, image);
-	if (mr_is_jpeg(b->data, b->size))
-		return mr_jpeg_read(ctx, b->data, b->size, image);
-	return mr_fail(ctx, MR_EFORMAT, "neither a PNG nor a JPEG");
-}
-
 /* What a browser could not decode is refused here. */
 static mr_status
 check_picture(mr_ctx *ctx, const mr_file_bytes *b)
@@ -83,7 +73,7 @@ check_picture(mr_ctx *ctx, const mr_file_bytes *b)
 	mr_mark mark = mr_mark_take(ctx);
 	mr_image image;
 
-	MR_TRY(decode(ctx, b, &image));
+	MR_TRY(mr_image_decode(ctx, b->data, b->size, &image));
 	if (image.width > LARGEST_SIDE || image.height > LARGEST_SIDE)
 		mr_found(ctx,
 		    &(mr_finding){ .kind = MR_LIMIT, .what = "a picture is larger than many browsers show" });

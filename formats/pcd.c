@@ -26,7 +26,6 @@ typedef struct pcd {
 	const unsigned char *planes; /* of packed ones: the fields, each of all points */
 	const field *rgb;            /* four bytes, blue first, in a whole number or in the bits of a float */
 	mr_v3 viewpoint;
-	mr_builder b;
 	mr_rows rows; /* of fields, then of colours, then of the viewpoint */
 	double x[COLUMNS];
 	size_t surplus; /* rows of text that have numbers of no field */
@@ -86,15 +85,11 @@ data_kind(pcd *f, mr_scan *line)
 
 /* ---- columns ---- */
 
-/* What PLY calls the type of a field. */
+/* What PLY calls a type that holds all values of a field. */
 static const char *
 type_of(const field *d)
 {
-	static const char *const whole[2][3] = { { "char", "short", "int" }, { "uchar", "ushort", "uint" } };
-
-	if (d->type == 'F')
-		return d->size == 4 ? "float" : "double";
-	return d->size == 8 ? "double" : whole[d->type == 'U'][d->size / 2];
+	return d->type != 'U' || d->size == 8 ? "double" : d->size == 1 ? "uchar" : "uint";
 }
 
 static bool
@@ -366,14 +361,13 @@ say_rest(pcd *f)
 mr_status
 mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	pcd f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .height = 1, .b = { .ctx = ctx } };
+	pcd f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .height = 1, .rows.b.ctx = ctx };
 
-	f.rows.b = &f.b;
 	MR_TRY(read_header(&f));
 	if (f.packed)
 		MR_TRY(unpack_planes(&f));
 	MR_TRY(read_points(&f));
 	say_rest(&f);
 	mr_rows_end(&f.rows);
-	return mr_build_finish(&f.b, m);
+	return mr_build_finish(&f.rows.b, m);
 }

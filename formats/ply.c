@@ -50,7 +50,6 @@ typedef struct ply {
 	bool binary, big;
 	element *element;
 	size_t elements, room;
-	mr_builder b;
 	uint32_t *indices; /* of the list at hand */
 	size_t indices_count, indices_room;
 	corner_list uv;
@@ -207,7 +206,7 @@ choose_face_properties(ply *f, element *e)
 	for (size_t i = 0; i < e->properties; i++) {
 		property *p = &e->property[i];
 		if (p->role == NONE && !p->list)
-			mr_build_property(&f->b, p->name, types[p->value].name, 'f', &p->kept);
+			p->kept = mr_build_property(&f->rows.b, p->name, types[p->value].name, 'f');
 	}
 }
 
@@ -367,7 +366,7 @@ read_indices(ply *f, const property *p, bool strips)
 			uint32_t raw = mr_load32(
 			    (const unsigned char *)f->text.p, f->big); /* the usual case */
 			f->text.p += size;
-			if (raw < f->b.m.nv) {
+			if (raw < f->rows.b.m.nv) {
 				f->indices[i] = raw;
 				continue;
 			}
@@ -379,10 +378,10 @@ read_indices(ply *f, const property *p, bool strips)
 			MR_TRY(next_value(f, p->value, &x));
 		if (strips && x == -1)
 			f->indices[i] = MR_NONE;
-		else if (x >= 0 && x < (double)f->b.m.nv && x == floor(x))
+		else if (x >= 0 && x < (double)f->rows.b.m.nv && x == floor(x))
 			f->indices[i] = (uint32_t)x;
 		else
-			return mr_scan_fail(&f->text, where, "vertex %.17g of %zu", x, f->b.m.nv);
+			return mr_scan_fail(&f->text, where, "vertex %.17g of %zu", x, f->rows.b.m.nv);
 	}
 	return MR_OK;
 }
@@ -436,7 +435,7 @@ add_strips(ply *f)
 		odd = (length & 1) == 0; /* every other one is turned over */
 		t[0] = s[i - 2 + odd], t[1] = s[i - 1 - odd], t[2] = s[i];
 		if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-			mr_build_face(&f->b, t, NULL, NULL, 3);
+			mr_build_face(&f->rows.b, t, NULL, NULL, 3);
 	}
 }
 
@@ -446,8 +445,8 @@ add_face(ply *f)
 	const uint32_t *c = f->indices, *uv;
 
 	places_of(f, &f->uv, &uv);
-	if (f->indices_count != 3 || uv || !mr_build_triangle(&f->b, c[0], c[1], c[2]))
-		mr_build_face(&f->b, c, uv, NULL, f->indices_count);
+	if (f->indices_count != 3 || uv || !mr_build_triangle(&f->rows.b, c[0], c[1], c[2]))
+		mr_build_face(&f->rows.b, c, uv, NULL, f->indices_count);
 }
 
 /* Keeps the row at hand as row `at` of the properties. */
@@ -456,7 +455,7 @@ keep_row(ply *f, const element *e, size_t at)
 {
 	for (size_t i = 0; i < e->properties; i++)
 		if (e->property[i].kept)
-			mr_build_value(&f->b, e->property[i].kept, at, f->row[i]);
+			mr_build_value(&f->rows.b, e->property[i].kept, at, f->row[i]);
 }
 
 /* ---- rows ---- */
@@ -520,7 +519,7 @@ begin_element(ply *f, const element *e)
 		return mr_scan_fail(&f->text, here(f), "element %s has no list of vertex_indices", e->name);
 	if (e->rows && !f->vertices)
 		return mr_scan_fail(&f->text, here(f), "element %s before the vertices is not read", e->name);
-	return mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
+	return mr_build_reserve(&f->rows.b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
 }
 
 static mr_status
@@ -529,7 +528,7 @@ read_element(ply *f, const element *e)
 	MR_TRY(begin_element(f, e));
 	for (uint64_t row = 0; e->properties && row < e->rows; row++) {
 		const char *where = here(f);
-		size_t faces = f->b.faces;
+		size_t faces = f->rows.b.faces;
 		MR_TRY(read_row(f, e, row));
 		if (e->kind == VERTEX)
 			MR_TRY(put_vertex(f, where));
@@ -537,7 +536,7 @@ read_element(ply *f, const element *e)
 			add_face(f);
 		else if (e->kind == STRIPS)
 			add_strips(f);
-		if (f->b.faces > faces)
+		if (f->rows.b.faces > faces)
 			keep_row(f, e, faces);
 	}
 	if (e->kind == VERTEX) {
@@ -570,9 +569,8 @@ lose_others(ply *f)
 mr_status
 mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ply f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
+	ply f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .rows.b.ctx = ctx };
 
-	f.rows.b = &f.b;
 	MR_TRY(read_header(&f));
 	for (size_t i = 0; i < f.elements; i++)
 		MR_TRY(read_element(&f, &f.element[i]));
@@ -582,6 +580,6 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		mr_skip_comments(&f.text);
 	mr_scan_rest(&f.text);
 	lose_others(&f);
-	f.b.uv = f.uv.value;
-	return mr_build_finish(&f.b, m);
+	f.rows.b.uv = f.uv.value;
+	return mr_build_finish(&f.rows.b, m);
 }

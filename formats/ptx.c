@@ -8,7 +8,6 @@
 typedef struct ptx {
 	mr_ctx *ctx;
 	mr_scan text;
-	mr_builder b;
 	mr_rows rows;
 	size_t grids;
 } ptx;
@@ -115,10 +114,9 @@ begin(ptx *f)
 mr_status
 mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx }, .rows.sparse = true };
+	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .rows.b.ctx = ctx, .rows.sparse = true };
 	scan s;
 
-	f.rows.b = &f.b;
 	begin(&f);
 	for (mr_skip_space(&f.text); f.text.p < f.text.end; mr_skip_space(&f.text)) {
 		MR_TRY(read_head(&f, &s));
@@ -128,7 +126,7 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	}
 	mr_lost(ctx, NULL, f.grids, "grids of scans");
 	mr_rows_end(&f.rows);
-	return mr_build_finish(&f.b, m);
+	return mr_build_finish(&f.rows.b, m);
 }
 
 /* How many numbers the line has; 0 where it has anything else. */

@@ -28,10 +28,10 @@ mr_role_of(const char *name, size_t bytes)
 void
 mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char *type)
 {
-	MR_RESERVE(r->b->ctx, r->column, r->columns, 1, &r->column_room);
+	MR_RESERVE(r->b.ctx, r->column, r->columns, 1, &r->column_room);
 	if (r->at[role])
 		role = MR_NO_ROLE;
-	r->column[r->columns++] = (mr_rows_column){ role, mr_clean_copy(r->b->ctx, name, bytes), type, 0 };
+	r->column[r->columns++] = (mr_rows_column){ role, mr_clean_copy(r->b.ctx, name, bytes), type, 0 };
 	r->at[role] = role == MR_NO_ROLE ? 0 : r->columns;
 }
 
@@ -75,7 +75,7 @@ mr_rows_begin(mr_rows *r)
 	for (size_t i = 0; i < r->columns; i++) {
 		mr_rows_column *c = &r->column[i];
 		if (c->role == MR_NO_ROLE && c->type)
-			mr_build_property(r->b, c->name, c->type, 'v', &c->property);
+			c->property = mr_build_property(&r->b, c->name, c->type, 'v');
 	}
 }
 
@@ -88,7 +88,7 @@ has_part(const mr_rows *r, size_t part)
 mr_status
 mr_rows_room(mr_rows *r, uint64_t more)
 {
-	mr_ctx *ctx = r->b->ctx;
+	mr_ctx *ctx = r->b.ctx;
 
 	if (more >= MR_NONE - r->n)
 		return mr_fail(ctx, MR_ERANGE, "%llu vertices are more than indices can name",
@@ -114,7 +114,7 @@ begin_color(mr_rows *r, double red)
 
 	if (!r->part[COLOR] && isnan(red))
 		return false;
-	MR_RESERVE(r->b->ctx, r->part[COLOR], before, 4 * r->n + 4 - before, &r->room[COLOR]);
+	MR_RESERVE(r->b.ctx, r->part[COLOR], before, 4 * r->n + 4 - before, &r->room[COLOR]);
 	for (size_t i = before; i < 4 * r->n; i++)
 		r->part[COLOR][i] = NAN;
 	return true;
@@ -132,7 +132,7 @@ mr_rows_put(mr_rows *r, const double *x)
 	}
 	for (size_t k = 0; k < r->columns; k++)
 		if (r->column[k].property)
-			mr_build_value(r->b, r->column[k].property, r->n, x[k]);
+			mr_build_value(&r->b, r->column[k].property, r->n, x[k]);
 	r->n++;
 }
 
@@ -170,18 +170,18 @@ finish_colors(mr_rows *r)
 			there++;
 		} else
 			odd += !r->sparse || !isnan(c[i]) || !isnan(c[i + 1]) || !isnan(c[i + 2]);
-	mr_lost(r->b->ctx, NULL, odd, kinds[COLOR].what);
+	mr_lost(r->b.ctx, NULL, odd, kinds[COLOR].what);
 	if (there == 0)
 		return;
 	for (int k = 0; k < 2; k++)
 		if (r->shades[k].full == 0)
 			r->shades[k].full = mr_shade_full(&r->shades[k]);
-	r->b->m.color = color = MR_NEW(r->b->ctx, 4 * r->n, unsigned char);
+	r->b.m.color = color = MR_NEW(r->b.ctx, 4 * r->n, unsigned char);
 	for (size_t i = 0; i < r->n; i++, c += 4)
 		for (size_t k = 0, none = !has_color(c); k < 4; k++)
 			*color++ = none || isnan(c[k]) ? 255 : mr_shade_byte(&r->shades[k == 3], c[k]);
 	for (int k = 0; k < 2; k++)
-		mr_shades_said(r->b->ctx, &r->shades[k]);
+		mr_shades_said(r->b.ctx, &r->shades[k]);
 }
 
 /* The values of a part that has no value for none; NULL where it is not there, or one is not finite. */
@@ -195,18 +195,18 @@ finish_part(mr_rows *r, size_t part)
 		const double *x = r->part[part] + width * i;
 		odd += !isfinite(x[0] + x[1] + x[width - 1]) ? 1 : 0;
 	}
-	return mr_all_left(r->b->ctx, odd, r->n, kinds[part].what) ? r->part[part] : NULL;
+	return mr_all_left(r->b.ctx, odd, r->n, kinds[part].what) ? r->part[part] : NULL;
 }
 
 void
 mr_rows_end(mr_rows *r)
 {
-	mr_model *m = &r->b->m;
+	mr_model *m = &r->b.m;
 	mr_v3 *normal = (mr_v3 *)r->part[NORMAL];
 
 	m->nv = r->n;
 	m->p = (const mr_v3 *)r->part[POSITION];
-	m->normal = normal && mr_normals_left(r->b->ctx, normal, r->n) ? normal : NULL;
+	m->normal = normal && mr_normals_left(r->b.ctx, normal, r->n) ? normal : NULL;
 	m->texcoord = finish_part(r, TEXCOORD);
 	m->scanner = (const mr_v3 *)finish_part(r, SCANNER);
 	finish_colors(r);

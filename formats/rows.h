@@ -44,7 +44,7 @@ typedef struct mr_rows_column {
 } mr_rows_column;
 
 typedef struct mr_rows {
-	mr_builder *b;
+	mr_builder b;
 	mr_rows_column *column;
 	size_t columns, column_room;
 	size_t at[MR_ROLES];    /* the column of a role, from 1; 0: none */

@@ -30,7 +30,6 @@ typedef struct table {
 	column column[COLUMNS];
 	size_t units[2], others[2]; /* rows of columns 3 to 5, 6 to 8 of length 1, of neither 0 nor 1 */
 	const char *first_row;      /* for sentences */
-	mr_builder b;
 	mr_rows points;
 } table;
 
@@ -395,7 +394,7 @@ are_halves(const table *t)
 
 	if (!t->counted || t->columns != 3 || t->count == 0 || t->rows != 2 * t->count)
 		return false;
-	for (const mr_v3 *n = t->b.m.p + t->count; n < t->b.m.p + t->rows; n++)
+	for (const mr_v3 *n = t->points.b.m.p + t->count; n < t->points.b.m.p + t->rows; n++)
 		others += !mr_has_unit_length(*n) && mr_norm2(*n) > 0;
 	return others <= t->count / 100;
 }
@@ -404,7 +403,7 @@ are_halves(const table *t)
 static void
 finish_normals(table *t)
 {
-	mr_model *m = &t->b.m;
+	mr_model *m = &t->points.b.m;
 	size_t zero = 0;
 
 	if (are_halves(t)) {
@@ -422,9 +421,8 @@ finish_normals(table *t)
 mr_status
 mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	table t = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
+	table t = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .points.b.ctx = ctx };
 
-	t.points.b = &t.b;
 	read_head(&t);
 	MR_TRY(survey(&t));
 	if (t.rows == 0)
@@ -435,7 +433,7 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(fill(&t));
 	mr_rows_end(&t.points);
 	finish_normals(&t);
-	return mr_build_finish(&t.b, m);
+	return mr_build_finish(&t.points.b, m);
 }
 
 /* The first line that says something is numbers, one or three and more, or names with x, y and z among them.
