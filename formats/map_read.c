@@ -162,7 +162,7 @@ read_heights(mr_ctx *ctx, const mr_gray *g, const mr_mesh *control, const mr_mod
 	mr_loop *level = MR_NEW(ctx, found->level + 1, mr_loop);
 	gathered *of;
 
-	MR_TRY(mr_loop_levels(ctx, control, 180, found->level, level));
+	MR_TRY(mr_loop_levels(ctx, control, 180, NULL, found->level, level));
 	d->n = found->level;
 	d->m.nv = level[d->n].nv;
 	*height = MR_NEW(ctx, d->m.nv, double);

@@ -362,7 +362,7 @@ get_displaced(mr_ctx *ctx, mr_frame *f, displaced *d)
 	MR_TRY(mr_displacement_get(ctx, f, &control, &r.n, &r.height));
 	level = MR_NEW(ctx, r.n + 1, mr_loop);
 	MR_TRY(mr_layer_crease(ctx, f, control.name, control.nf, &mark));
-	MR_TRY(mr_loop_levels_marked(ctx, &control, 180, mark, r.n, level));
+	MR_TRY(mr_loop_levels(ctx, &control, 180, mark, r.n, level));
 	box = mr_mesh_box(&control);
 	r.extent = fmax(box.max.x - box.min.x, fmax(box.max.y - box.min.y, box.max.z - box.min.z));
 	r.level = level;

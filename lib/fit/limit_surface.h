@@ -42,7 +42,7 @@ typedef struct mr_fit_gap {
 } mr_fit_gap;
 
 /* The surface of a control mesh, an oriented manifold (else MR_EMESH), in the arena.  crease: marks, as of
- * mr_loop_control_marked. */
+ * mr_loop_control. */
 mr_status mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, mr_fit_surface *s);
 
 /* Its nodes where the control vertices are at x. */

@@ -27,26 +27,13 @@ makes_a_needle(const mr_dyn *d, uint32_t v, mr_v3 p)
 	return false;
 }
 
-static bool
-is_on_curve(const mr_dyn *d, uint32_t v)
-{
-	uint32_t h = d->out[v];
-
-	do {
-		if (mr_dyn_on_curve(d, h) || mr_dyn_on_curve(d, mr_he_prev(h)))
-			return true;
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return false;
-}
-
 /* Half of the way to the middle of the neighbours. */
 static void
 draw_in(mr_dyn *d, uint32_t v)
 {
 	mr_v3 p;
 
-	if (d->kind[v] != MR_SMOOTH && is_on_curve(d, v))
+	if (d->kind[v] != MR_SMOOTH)
 		return;
 	p = mr_lerp(0.5, d->p[v], mr_dyn_middle_around(d, v));
 	if (!makes_a_needle(d, v, p))

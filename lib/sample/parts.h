@@ -89,13 +89,6 @@ mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_c
 void mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
     double *height, bool *hit, mr_sample_result *r);
 
-/*
- * The faces of the displaced surface that have turned from the domain's, are folded against one beside them,
- * or, as `crosses` says where it is not NULL, pass through others.  bad: one a face, the caller's.  Returns
- * how many.
- */
-size_t mr_find_folds(mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, const bool *crosses, bool *bad);
-
 /* What the least squares weigh, beside the points, of which each counts 1. */
 typedef struct mr_fit_weights {
 	double fair;  /* of the fairness of the heights */

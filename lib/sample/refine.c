@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "measure/gaps.h"
+#include "mesh/fold.h"
 #include "op/voronoi_area.h"
 #include "sample/parts.h"
 #include "space/surface_walk.h"
@@ -155,6 +156,49 @@ assemble_rows(void *arg, size_t begin, size_t end)
 			h = mr_he_ccw(topo, h);
 		} while (h != MR_NONE && h != first);
 	}
+}
+
+static bool
+beyond(mr_v3 a, mr_v3 b, double cosine)
+{
+	return !(mr_dot(a, b) > cosine * mr_norm(a) * mr_norm(b));
+}
+
+/* True where the face has turned from the domain's, is folded against one beside it, or passes through one.
+ */
+static bool
+is_bad(const fit *x, uint32_t f)
+{
+	static const double turned = 0.1;
+	const uint32_t *twin = x->d->level[x->d->n].topo.twin;
+	mr_v3 n = mr_face_cross(&x->surface, f);
+
+	if (x->crosses[f] || beyond(n, mr_face_cross(&x->d->m, f), turned))
+		return true;
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+		if (twin[h] != MR_NONE && mr_folds(n, mr_face_cross(&x->surface, twin[h] / 3), MR_FOLD))
+			return true;
+	return false;
+}
+
+static void
+look(void *arg, size_t begin, size_t end)
+{
+	const fit *x = arg;
+
+	for (size_t f = begin; f < end; f++)
+		x->bad[f] = is_bad(x, (uint32_t)f);
+}
+
+static size_t
+find_folds(mr_ctx *ctx, fit *x)
+{
+	size_t count = 0;
+
+	mr_parallel(ctx, x->surface.nf, GRAIN, look, x);
+	for (size_t f = 0; f < x->surface.nf; f++)
+		count += x->bad[f];
+	return count;
 }
 
 /*
@@ -307,7 +351,7 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 	x->target = MR_NEW(ctx, d->m.nv, double);
 	x->pull = MR_NEW(ctx, d->m.nv, float);
 	x->bad = MR_NEW(ctx, d->m.nf, bool);
-	x->crosses = MR_NEW(ctx, d->m.nf, bool);
+	x->crosses = MR_NEW_ZERO(ctx, d->m.nf, bool);
 	x->near = MR_NEW(ctx, d->m.nv, bool);
 	for (size_t i = 0; i < c->n; i++)
 		x->wish[i].face = c->face[i];
@@ -371,7 +415,7 @@ find_bad(mr_ctx *ctx, fit *x, size_t *folds)
 			moved[f / parts] |= x->near[x->surface.t[f].v[k]];
 	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
 	mr_find_crossings(ctx, x->d->level, x->d->n, x->p, moved, x->crosses);
-	*folds = mr_find_folds(ctx, &x->surface, x->d, x->crosses, x->bad);
+	*folds = find_folds(ctx, x);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -404,7 +448,7 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 {
 	for (size_t pass = 0; pass < passes; pass++) {
 		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-		mr_find_folds(ctx, &x->surface, x->d, NULL, x->bad);
+		find_folds(ctx, x);
 		if (x->weights->robust && pass > 0)
 			mr_fairness_adapt(ctx, x->e, x->height, x->fair);
 		press(x);

@@ -230,7 +230,7 @@ mr_bumpy(mr_ctx *ctx, size_t n, mr_mesh *m)
 	p = MR_NEW(ctx, coarse.nv, mr_v3);
 	memcpy(p, coarse.p, coarse.nv * sizeof *p);
 	relax(ctx, &coarse, p, 8);
-	MR_TRY(mr_loop_levels(ctx, &coarse, 180, levels, level));
+	MR_TRY(mr_loop_levels(ctx, &coarse, 180, NULL, levels, level));
 	fine = (mr_mesh){
 		.name = "bumpy", .t = level[levels].t, .nv = level[levels].nv, .nf = level[levels].nf
 	};

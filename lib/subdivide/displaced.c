@@ -20,23 +20,13 @@ mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n
 }
 
 mr_status
-mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d)
-{
-	mr_loop *level = MR_NEW(ctx, n + 1, mr_loop);
-
-	MR_TRY(mr_loop_levels(ctx, control, 180, n, level));
-	mr_domain_on(ctx, control, level, n, d);
-	return MR_OK;
-}
-
-mr_status
 mr_domain_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t n, mr_domain *d)
 {
 	mr_loop *level = MR_NEW(ctx, n + 1, mr_loop);
 	const uint8_t *mark;
 
 	MR_TRY(mr_layer_crease(ctx, f, control->name, control->nf, &mark));
-	MR_TRY(mr_loop_levels_marked(ctx, control, 180, mark, n, level));
+	MR_TRY(mr_loop_levels(ctx, control, 180, mark, n, level));
 	mr_domain_on(ctx, control, level, n, d);
 	return MR_OK;
 }
@@ -61,7 +51,7 @@ mr_level_cache_get(mr_level_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mes
 	cache->level = NULL;
 	MR_TRY(mr_layer_crease(ctx, f, m->name, m->nf, &creases));
 	l = MR_NEW(keep, n + 1, mr_loop);
-	MR_TRY(mr_fail_as(ctx, keep, mr_loop_levels_marked(keep, m, crease, creases, n, l)));
+	MR_TRY(mr_fail_as(ctx, keep, mr_loop_levels(keep, m, crease, creases, n, l)));
 	cache->n = n;
 	cache->crease = crease;
 	cache->serial = serial;

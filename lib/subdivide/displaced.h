@@ -19,11 +19,8 @@ typedef struct mr_domain {
 	const mr_v3 *normal;  /* unit; zero where the limit surface has none */
 } mr_domain;
 
-/* The domain of level n <= MR_LEVEL_MAX, in the arena.  MR_EMESH where the control mesh is not an oriented
- * manifold. */
-mr_status mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d);
-
-/* That of the frame's control mesh, with the creases that are marked in it. */
+/* The domain of level n <= MR_LEVEL_MAX of the frame's control mesh, with the creases that are marked in it;
+ * in the arena.  MR_EMESH where it is not an oriented manifold. */
 mr_status mr_domain_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t n, mr_domain *d);
 
 /* The domain on levels that stand, 0 to n, for the control mesh's positions: points and normals in the arena.

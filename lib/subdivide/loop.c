@@ -32,13 +32,7 @@ find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crea
 }
 
 mr_status
-mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, mr_loop *l)
-{
-	return mr_loop_control_marked(ctx, m, crease, NULL, l);
-}
-
-mr_status
-mr_loop_control_marked(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, mr_loop *l)
+mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, mr_loop *l)
 {
 	mr_loop r = { .nv = m->nv, .nf = m->nf, .t = m->t, .coarse_nv = m->nv };
 
@@ -212,16 +206,9 @@ mr_loop_boundary(const mr_loop *l)
 }
 
 mr_status
-mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, size_t n, mr_loop *level)
+mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, size_t n, mr_loop *level)
 {
-	return mr_loop_levels_marked(ctx, m, crease, NULL, n, level);
-}
-
-mr_status
-mr_loop_levels_marked(
-    mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, size_t n, mr_loop *level)
-{
-	MR_TRY(mr_loop_control_marked(ctx, m, crease, mark, &level[0]));
+	MR_TRY(mr_loop_control(ctx, m, crease, mark, &level[0]));
 	if (mr_loop_count(m->nv, m->nf, mr_loop_boundary(&level[0]), n) == SIZE_MAX)
 		return mr_fail(ctx, MR_ERANGE, "%s: level %zu of %zu faces is too large", m->name, n, m->nf);
 	for (size_t i = 0; i < n; i++)

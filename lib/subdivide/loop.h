@@ -26,15 +26,11 @@ typedef struct mr_loop {
 } mr_loop;
 
 /*
- * Level 0: the control mesh, oriented manifold, boundary allowed (else MR_EMESH); edges whose faces meet at
- * more than `crease` degrees are creases (180: none).  Isolated vertices stay where they are on every level.
- * l: in the arena.
+ * Level 0: the control mesh, oriented manifold, boundary allowed (else MR_EMESH).  Creases are edges whose
+ * faces meet at more than `crease` degrees (180: none), and those that are marked on either side: 3 m->nf, 0
+ * where one is not; NULL: none.  Isolated vertices stay where they are on every level.  l: in the arena.
  */
-mr_status mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, mr_loop *l);
-
-/* The same, and the edges that are marked on either side: 3 m->nf, 0 where one is not; NULL: none. */
-mr_status
-mr_loop_control_marked(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, mr_loop *l);
+mr_status mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, mr_loop *l);
 
 /* The next level, in the arena.  MR_ERANGE where it would have 2^32 half-edges or more. */
 mr_status mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine);
@@ -43,9 +39,8 @@ mr_status mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine);
 size_t mr_loop_boundary(const mr_loop *l);
 
 /* Levels 0 to n: level[0] to level[n], the caller's, over m.  MR_ERANGE as above, before any work. */
-mr_status mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, size_t n, mr_loop *level);
-mr_status mr_loop_levels_marked(
-    mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, size_t n, mr_loop *level);
+mr_status
+mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, size_t n, mr_loop *level);
 
 /* Vertices on level n of a closed or open mesh with nv vertices, nf faces and `boundary` boundary edges;
  * SIZE_MAX where that is too many. */

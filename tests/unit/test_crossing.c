@@ -1,5 +1,6 @@
 /* Crossings by the tree of subdivision against all pairs of triangles, and what moved against all of it. */
 #include "base/random.h"
+#include "domain.h"
 #include "shape/shape.h"
 #include "space/self_intersect.h"
 #include "subdivide/displaced.h"
@@ -14,11 +15,9 @@ sphere(size_t n)
 {
 	mr_make_opts o = { .solid = MR_SPHERE, .vertices = n };
 	mr_mesh control;
-	mr_domain d;
 
 	assert_int_equal(mr_solid_make(&ctx, &o, &control), MR_OK);
-	assert_int_equal(mr_domain_build(&ctx, &control, LEVEL, &d), MR_OK);
-	return d;
+	return domain(&control, LEVEL);
 }
 
 static bool

@@ -1,15 +1,6 @@
 /* Domains of displaced subdivision surfaces: prefixes, levels, displacing, and what a frame may hold. */
+#include "domain.h"
 #include "shapes.h"
-#include "subdivide/displaced.h"
-
-static mr_domain
-domain(const mr_mesh *m, size_t n)
-{
-	mr_domain d;
-
-	assert_int_equal(mr_domain_build(&ctx, m, n, &d), MR_OK);
-	return d;
-}
 
 static double *
 waves(size_t n)

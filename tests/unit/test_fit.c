@@ -28,7 +28,7 @@ limit_points(const mr_mesh *m, size_t n, mr_v3 **points)
 	mr_loop *level = MR_NEW(&ctx, n + 1, mr_loop);
 	mr_sparse s;
 
-	assert_int_equal(mr_loop_levels(&ctx, m, 180, n, level), MR_OK);
+	assert_int_equal(mr_loop_levels(&ctx, m, 180, NULL, n, level), MR_OK);
 	assert_int_equal(mr_loop_limit_matrix(&ctx, level, n, &s), MR_OK);
 	*points = MR_NEW(&ctx, level[n].nv, mr_v3);
 	for (size_t v = 0; v < level[n].nv; v++) {

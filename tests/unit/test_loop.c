@@ -23,7 +23,7 @@ levels(const mr_mesh *m, double crease, size_t n)
 {
 	mr_loop *level = MR_NEW(&ctx, n + 1, mr_loop);
 
-	assert_int_equal(mr_loop_levels(&ctx, m, crease, n, level), MR_OK);
+	assert_int_equal(mr_loop_levels(&ctx, m, crease, NULL, n, level), MR_OK);
 	return level;
 }
 
@@ -133,7 +133,7 @@ fan_level(fan *f, mr_mesh *m)
 	bool any = false;
 
 	*m = (mr_mesh){ "fan", f->p, f->t, f->ring + 1, f->n };
-	assert_int_equal(mr_loop_control(&ctx, m, 180, &l), MR_OK);
+	assert_int_equal(mr_loop_control(&ctx, m, 180, NULL, &l), MR_OK);
 	for (unsigned j = 0; j < f->ring; j++) {
 		any |= f->sharp[j];
 		if (j < f->n)
@@ -483,11 +483,11 @@ test_refusals(void **state)
 	mr_loop l;
 
 	(void)state;
-	assert_int_equal(mr_loop_control(&ctx, &m, 180, &l), MR_EMESH);
+	assert_int_equal(mr_loop_control(&ctx, &m, 180, NULL, &l), MR_EMESH);
 	assert_non_null(strstr(ctx.error, "edge 0-1 has 3 faces"));
 	m.nf = 1;
-	assert_int_equal(mr_loop_control(&ctx, &m, 180, &l), MR_OK);
-	assert_int_equal(mr_loop_levels(&ctx, &m, 180, 16, &l), MR_ERANGE);
+	assert_int_equal(mr_loop_control(&ctx, &m, 180, NULL, &l), MR_OK);
+	assert_int_equal(mr_loop_levels(&ctx, &m, 180, NULL, 16, &l), MR_ERANGE);
 	l.nv = MR_NONE - 2; /* three more are too many */
 	assert_int_equal(mr_loop_refine(&ctx, &l, &l), MR_ERANGE);
 }
@@ -501,7 +501,7 @@ test_threads(void **state)
 
 	(void)state;
 	ctx.threads = 1;
-	assert_int_equal(mr_loop_levels(&ctx, &m, 30, 2, one), MR_OK);
+	assert_int_equal(mr_loop_levels(&ctx, &m, 30, NULL, 2, one), MR_OK);
 	assert_memory_equal(one[2].t, two[2].t, one[2].nf * sizeof *one[2].t);
 	assert_memory_equal(one[2].topo.twin, two[2].topo.twin, 3 * one[2].nf * sizeof(uint32_t));
 	q = refined(&m, one, 2);

@@ -1,5 +1,6 @@
 /* The valid triangle against closed forms, heights of surfaces that are known, and what cannot be sampled. */
 #include "base/random.h"
+#include "domain.h"
 #include "sample/height_energy.h"
 #include "sample/parts.h"
 #include "shape/shape.h"
@@ -140,11 +141,9 @@ domain_of(mr_solid solid, size_t vertices, size_t level, bool open)
 {
 	mr_make_opts o = { .solid = solid, .vertices = vertices, .open = open };
 	mr_mesh control;
-	mr_domain d;
 
 	assert_int_equal(mr_solid_make(&ctx, &o, &control), MR_OK);
-	assert_int_equal(mr_domain_build(&ctx, &control, level, &d), MR_OK);
-	return d;
+	return domain(&control, level);
 }
 
 static mr_v3 *
@@ -337,7 +336,7 @@ columns_keep_to_their_sheet(void **state)
 	for (size_t v = 0; v < control.nv; v++)
 		flat[v] = mr_vec(control.p[v].x, control.p[v].y, 0.01 * control.p[v].z);
 	control.p = flat;
-	assert_int_equal(mr_domain_build(&ctx, &control, 2, &d), MR_OK);
+	d = domain(&control, 2);
 	height = MR_NEW_ZERO(&ctx, d.m.nv, double);
 	for (size_t i = 0; i < N; i++) {
 		double x, y;

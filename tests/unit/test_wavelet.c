@@ -14,7 +14,7 @@ shape_and_levels(mr_solid solid, size_t n)
 {
 	mr_mesh m = shape(solid, n);
 
-	assert_int_equal(mr_loop_levels(&ctx, &m, 180, LEVELS, level), MR_OK);
+	assert_int_equal(mr_loop_levels(&ctx, &m, 180, NULL, LEVELS, level), MR_OK);
 	return m;
 }
 

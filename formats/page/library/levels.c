@@ -20,7 +20,7 @@ levels_new(const mr_v3 *p, size_t nv, const mr_tri *t, size_t nf, const uint8_t 
 		return NULL;
 	mr_ctx_init(&l->ctx, 1);
 	l->control = (mr_mesh){ "control", p, t, nv, nf };
-	return mr_loop_control_marked(&l->ctx, &l->control, 180, crease, &l->level[0]) == MR_OK ? l : NULL;
+	return mr_loop_control(&l->ctx, &l->control, 180, crease, &l->level[0]) == MR_OK ? l : NULL;
 }
 
 /* Level n, of which the triangles are; NULL where there is no memory. */
