@@ -4,7 +4,6 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
-#include "base/sort.h"
 #include "mesh/fold.h"
 #include "mesh/layers.h"
 #include "space/self_intersect.h"
@@ -128,34 +127,15 @@ count_edges(const mr_mesh *m, const mr_edges *edges, mr_census *c)
 	}
 }
 
-/* The vertex opposite half-edge h, where it is above both ends: each face is met so at one of its edges. */
-static uint32_t
-top_vertex(const mr_mesh *m, uint32_t h)
-{
-	uint32_t a = mr_he_from(m, h), b = mr_he_to(m, h), c = mr_he_from(m, mr_he_prev(h));
-
-	return c > a && c > b ? c : MR_NONE;
-}
-
 static void
-count_duplicates(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *c)
+count_duplicates(mr_ctx *ctx, const mr_mesh *m, mr_census *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t most = 0, *top;
+	mr_incidence around;
 
-	for (size_t e = 0; e < edges->count; e++)
-		most = mr_edge_faces(edges, e) > most ? mr_edge_faces(edges, e) : most;
-	top = MR_NEW(ctx, most, uint32_t);
-	for (size_t e = 0; e < edges->count; e++) {
-		uint32_t n = mr_edge_faces(edges, e);
-		if (n < 2)
-			continue;
-		for (uint32_t i = 0; i < n; i++)
-			top[i] = top_vertex(m, edges->he[edges->start[e] + i]);
-		mr_sort_indices(top, n);
-		for (uint32_t i = 1; i < n; i++)
-			c->duplicate_faces += top[i] != MR_NONE && top[i] == top[i - 1];
-	}
+	mr_incidence_build(ctx, m, &around);
+	for (uint32_t f = 0; f < m->nf; f++)
+		c->duplicate_faces += !mr_face_repeats(m, f) && mr_face_is_repeated(m, &around, f);
 	mr_mark_release(ctx, mark);
 }
 
@@ -181,7 +161,7 @@ mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *
 	count_degenerate(m, &c);
 	count_components(ctx, m, &c, &used);
 	count_fans_and_loops(ctx, m, edges, &c);
-	count_duplicates(ctx, m, edges, &c);
+	count_duplicates(ctx, m, &c);
 	c.euler = (int64_t)used - (int64_t)edges->count + (int64_t)proper;
 	c.oriented = c.inconsistent_edges == 0;
 	c.manifold = c.nonmanifold_edges == 0 && c.nonmanifold_vertices == 0;

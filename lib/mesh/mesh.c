@@ -119,6 +119,23 @@ mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a)
 	*a = (mr_incidence){ start, face };
 }
 
+bool
+mr_face_is_repeated(const mr_mesh *m, const mr_incidence *around, uint32_t f)
+{
+	const size_t *start = around->start;
+	const uint32_t *v = m->t[f].v;
+	uint32_t a = v[0]; /* which the fewest have */
+
+	for (int k = 1; k < 3; k++)
+		a = start[v[k] + 1] - start[v[k]] < start[a + 1] - start[a] ? v[k] : a;
+	for (size_t i = start[a]; around->face[i] < f; i++) {
+		mr_tri t = m->t[around->face[i]];
+		if (mr_has_corner(t, v[0]) && mr_has_corner(t, v[1]) && mr_has_corner(t, v[2]))
+			return true;
+	}
+	return false;
+}
+
 void
 mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 {

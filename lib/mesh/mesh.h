@@ -78,6 +78,9 @@ typedef struct mr_incidence {
 } mr_incidence;
 void mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a);
 
+/* Whether an earlier face has the corners of face f, in any order. */
+bool mr_face_is_repeated(const mr_mesh *m, const mr_incidence *around, uint32_t f);
+
 /* Whether face f has a vertex twice. */
 static inline bool
 mr_face_repeats(const mr_mesh *m, size_t f)

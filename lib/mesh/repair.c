@@ -41,18 +41,6 @@ degenerate(const mr_mesh *m, size_t f)
 	return mr_face_repeats(m, f) || mr_norm2(mr_face_cross(m, f)) == 0;
 }
 
-/* Whether an earlier face has the vertices of face f. */
-static bool
-is_repeated(const mr_mesh *m, const mr_incidence *around, uint32_t f)
-{
-	const uint32_t *v = m->t[f].v;
-
-	for (size_t i = around->start[v[0]]; around->face[i] < f; i++)
-		if (mr_has_corner(m->t[around->face[i]], v[1]) && mr_has_corner(m->t[around->face[i]], v[2]))
-			return true;
-	return false;
-}
-
 static void
 keep_faces(surface *s)
 {
@@ -66,7 +54,7 @@ keep_faces(surface *s)
 	for (uint32_t f = 0; f < s->m->nf; f++) {
 		if (degenerate(s->m, f)) {
 			s->r.degenerate++;
-		} else if (is_repeated(s->m, &around, f)) {
+		} else if (mr_face_is_repeated(s->m, &around, f)) {
 			s->r.duplicate++;
 		} else {
 			s->t[s->nf] = s->m->t[f];
