@@ -685,12 +685,6 @@ end_root(glb *w)
 		    json_pack("{s:O, s:O}", "samplers", w->samplers, "channels", w->channels));
 }
 
-static void
-put_word(mr_sink *s, size_t n)
-{
-	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)n));
-}
-
 /* Header, JSON filled up with blanks, bytes. */
 static mr_status
 put_chunks(glb *w, const char *json)
@@ -699,15 +693,10 @@ put_chunks(glb *w, const char *json)
 
 	if (all > UINT32_MAX)
 		return mr_fail(w->ctx, MR_ERANGE, "%zu bytes are more than a glb can have", all);
-	put_word(w->s, MR_GLTF_MAGIC);
-	put_word(w->s, 2);
-	put_word(w->s, all);
-	put_word(w->s, padded);
-	put_word(w->s, MR_GLTF_JSON);
+	mr_put(w->s, (uint32_t[]){ MR_GLTF_MAGIC, 2, (uint32_t)all, (uint32_t)padded, MR_GLTF_JSON }, 20);
 	mr_put(w->s, json, text);
 	mr_put(w->s, "   ", padded - text);
-	put_word(w->s, w->bytes);
-	put_word(w->s, MR_GLTF_BIN);
+	mr_put(w->s, (uint32_t[]){ (uint32_t)w->bytes, MR_GLTF_BIN }, 8);
 	mr_put(w->s, w->bin, w->bytes);
 	return MR_OK;
 }

@@ -38,23 +38,6 @@ begins(const mr_scan *line, const char *word)
 
 /* ---- v, vt, vn ---- */
 
-/* The numbers of a line. */
-static mr_status
-numbers(mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count)
-{
-	size_t n = 0;
-
-	for (; mr_skip_blanks(line), line->p < line->end && *line->p != '#'; n++) {
-		if (n == most)
-			return mr_scan_fail(line, line->p, "%s has more than %zu numbers", what, most);
-		MR_TRY(mr_scan_real(line, what, &x[n]));
-	}
-	if (n < least)
-		return mr_scan_fail(line, line->p, "%s has %zu numbers, not %zu", what, n, least);
-	*count = n;
-	return MR_OK;
-}
-
 /* v x y z [w | r g b [a]]: with four numbers the last is a weight, with six or seven there is a colour. */
 static mr_status
 position(obj *o, mr_scan *line)
@@ -62,7 +45,7 @@ position(obj *o, mr_scan *line)
 	double x[7] = { 0 };
 	size_t n = 0;
 
-	MR_TRY(numbers(line, "a vertex", 3, 7, x, &n));
+	MR_TRY(mr_scan_reals(line, "a vertex", 3, 7, x, &n));
 	if (n == 5)
 		return mr_scan_fail(line, line->p, "a vertex has 5 numbers, not 3, 4, 6 or 7");
 	if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2]))
@@ -81,7 +64,7 @@ texcoord(obj *o, mr_scan *line)
 	double x[3] = { 0 };
 	size_t n = 0;
 
-	MR_TRY(numbers(line, "a texture coordinate", 1, 3, x, &n));
+	MR_TRY(mr_scan_reals(line, "a texture coordinate", 1, 3, x, &n));
 	if (!isfinite(x[0]) || !isfinite(x[1])) {
 		x[0] = x[1] = NAN; /* none */
 		o->odd_texcoords++;
@@ -99,7 +82,7 @@ normal(obj *o, mr_scan *line)
 	double x[3] = { 0 };
 	size_t n;
 
-	MR_TRY(numbers(line, "a normal", 3, 3, x, &n));
+	MR_TRY(mr_scan_reals(line, "a normal", 3, 3, x, &n));
 	o->vn_values[o->vn] = mr_vec(x[0], x[1], x[2]);
 	o->vn++;
 	return MR_OK;
@@ -279,25 +262,39 @@ other_statement(obj *o, mr_scan *line)
 	return MR_OK;
 }
 
-/* Reads one line here; *pass where tinyobj is to see it. */
-static mr_status
-one_line(obj *o, mr_scan *line, bool *pass)
+/* What the numbers of a line are of: v, t or n; f, # of nothing, or 0 of another statement. */
+static char
+kind_of(const mr_scan *line)
 {
 	size_t left = (size_t)(line->end - line->p);
 	char c = left ? *line->p : '#', d = left > 1 ? line->p[1] : ' ';
 
-	*pass = false;
-	if (c == '#')
+	if (c == '#' || ((c == 'v' || c == 'f') && mr_is_blank(d)))
+		return c;
+	return c == 'v' && (d == 't' || d == 'n') && (left == 2 || mr_is_blank(line->p[2])) ? d : 0;
+}
+
+/* Reads one line here; *pass where tinyobj is to see it. */
+static mr_status
+one_line(obj *o, mr_scan *line, bool *pass)
+{
+	char kind = kind_of(line);
+
+	*pass = kind == 'f';
+	switch (kind) {
+	case '#':
 		return MR_OK;
-	if (c == 'v' && mr_is_blank(d))
+	case 'v':
 		return line->p++, position(o, line);
-	if (c == 'v' && (d == 't' || d == 'n') && (left == 2 || mr_is_blank(line->p[2])))
-		return line->p += 2, d == 't' ? texcoord(o, line) : normal(o, line);
-	if (c == 'f' && mr_is_blank(d)) {
-		*pass = true;
+	case 't':
+		return line->p += 2, texcoord(o, line);
+	case 'n':
+		return line->p += 2, normal(o, line);
+	case 'f':
 		return check_face(line);
+	default:
+		return is_mark(o, line) ? MR_OK : other_statement(o, line);
 	}
-	return is_mark(o, line) ? MR_OK : other_statement(o, line);
 }
 
 /* A line for tinyobj, which knows few blanks, and takes the next corner's index behind a slash with nothing
@@ -368,15 +365,11 @@ count_lines(obj *o)
 	mr_scan start = o->text, line;
 
 	while (next_line(o, &line)) {
-		size_t left = (size_t)(line.end - line.p);
-		char c = left ? *line.p : '#', d = left > 1 ? line.p[1] : ' ';
-		if (c == 'v') {
-			bool alone = left <= 2 || mr_is_blank(line.p[2]);
-			o->v_all += mr_is_blank(d);
-			o->vt_all += d == 't' && alone;
-			o->vn_all += d == 'n' && alone;
-		} else if (c == 'f')
-			o->f_all += mr_is_blank(d);
+		char kind = kind_of(&line);
+		o->v_all += kind == 'v';
+		o->vt_all += kind == 't';
+		o->vn_all += kind == 'n';
+		o->f_all += kind == 'f';
 	}
 	o->text = start;
 }

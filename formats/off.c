@@ -75,23 +75,6 @@ begin_vertices(off *f)
 	return mr_rows_room(&f->rows, f->nv);
 }
 
-/* The numbers left on the line. */
-static mr_status
-line_rest(off *f, double *x, size_t most, size_t *count)
-{
-	size_t n = 0;
-
-	for (mr_skip_blanks(&f->text); f->text.p < f->text.end && *f->text.p != '\n' && *f->text.p != '#';
-	     mr_skip_blanks(&f->text)) {
-		if (n == most)
-			return mr_scan_fail(
-			    &f->text, f->text.p, "more numbers on a line than a vertex can have");
-		MR_TRY(mr_scan_real(&f->text, "a number of a vertex", &x[n++]));
-	}
-	*count = n;
-	return MR_OK;
-}
-
 /* x y z [nx ny nz] [r g b [a]] [s t], on one line from the third number on. */
 static mr_status
 read_vertex(off *f)
@@ -99,6 +82,7 @@ read_vertex(off *f)
 	size_t n = 3, rest = 0, colors, wanted = f->texcoords ? 2 : 0;
 	double x[MOST] = { 0 }, more[8] = { 0 };
 	const char *where;
+	mr_scan line;
 	mr_v3 p;
 
 	mr_skip_comments(&f->text);
@@ -107,7 +91,8 @@ read_vertex(off *f)
 	x[0] = p.x, x[1] = p.y, x[2] = p.z;
 	for (int k = 0; f->normals && k < 3; k++)
 		MR_TRY(mr_scan_real(&f->text, "a normal", &x[n++]));
-	MR_TRY(line_rest(f, more, 8, &rest));
+	if (mr_scan_line(&f->text, &line))
+		MR_TRY(mr_scan_reals(&line, "a vertex", 0, 8, more, &rest));
 	if (rest < wanted)
 		return mr_scan_fail(&f->text, where, "a vertex lacks its texture coordinates");
 	colors = rest - wanted;

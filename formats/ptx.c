@@ -18,31 +18,21 @@ typedef struct scan {
 } scan;
 
 static mr_status
-numbers_of_line(ptx *f, double *x, size_t most, size_t *count)
+numbers_of_line(ptx *f, const char *what, size_t least, size_t most, double *x, size_t *count)
 {
 	mr_scan line;
-	size_t n = 0;
 
 	if (!mr_scan_line(&f->text, &line))
 		return mr_scan_fail(&f->text, f->text.end, "the file ends inside a scan");
-	for (mr_skip_blanks(&line); line.p < line.end; mr_skip_blanks(&line)) {
-		if (n == most)
-			return mr_scan_fail(&f->text, line.p, "more than %zu numbers", most);
-		MR_TRY(mr_scan_real(&line, "a number", &x[n++]));
-	}
-	*count = n;
-	return MR_OK;
+	return mr_scan_reals(&line, what, least, most, x, count);
 }
 
 static mr_status
-exactly(ptx *f, double *x, size_t wanted)
+exactly(ptx *f, double *x, size_t n)
 {
 	const char *where = f->text.p;
-	size_t n = 0;
 
-	MR_TRY(numbers_of_line(f, x, wanted, &n));
-	if (n < wanted)
-		return mr_scan_fail(&f->text, where, "%zu numbers, not %zu", n, wanted);
+	MR_TRY(numbers_of_line(f, "a line of the head", n, n, x, &n));
 	for (size_t i = 0; i < n; i++)
 		if (!isfinite(x[i]))
 			return mr_scan_fail(&f->text, where, "a number is not finite");
@@ -83,8 +73,8 @@ read_point(ptx *f, const scan *s)
 	size_t n = 0;
 	mr_v3 p;
 
-	MR_TRY(numbers_of_line(f, x, 7, &n));
-	if (n != 3 && n != 4 && n != 7)
+	MR_TRY(numbers_of_line(f, "a point", 3, 7, x, &n));
+	if (n > 4 && n < 7)
 		return mr_scan_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
 	if (x[0] == 0 && x[1] == 0 && x[2] == 0)
 		return MR_OK;

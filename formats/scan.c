@@ -178,6 +178,22 @@ mr_scan_rest(mr_scan *t)
 }
 
 mr_status
+mr_scan_reals(mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count)
+{
+	size_t n = 0;
+
+	for (; mr_skip_blanks(line), line->p < line->end && *line->p != '#'; n++) {
+		if (n == most)
+			return mr_scan_fail(line, line->p, "%s has more than %zu numbers", what, most);
+		MR_TRY(mr_scan_real(line, what, &x[n]));
+	}
+	if (n < least)
+		return mr_scan_fail(line, line->p, "%s has %zu numbers, not %zu", what, n, least);
+	*count = n;
+	return MR_OK;
+}
+
+mr_status
 mr_scan_position(mr_scan *t, mr_v3 *p)
 {
 	const char *where;

@@ -75,6 +75,10 @@ mr_status mr_scan_real(mr_scan *t, const char *what, double *x);
 /* The next word as a whole number of at most `most`. */
 mr_status mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n);
 
+/* The numbers of a line that mr_scan_line gave, or of what is left of it, up to a comment: `least` to `most`.
+ */
+mr_status mr_scan_reals(mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count);
+
 /* Three finite numbers. */
 mr_status mr_scan_position(mr_scan *t, mr_v3 *p);
 
