@@ -3,8 +3,6 @@
 
 #include "base/text_file.h"
 
-#include <inttypes.h>
-
 /* FNV-1a (Fowler, Noll, Vo 1991), a corner at a time: a page and a script have it in a line as well. */
 static uint32_t
 checksum_of(const mr_mesh *m)
@@ -20,11 +18,19 @@ checksum_of(const mr_mesh *m)
 static mr_status
 parse_head(mr_ctx *ctx, const char *line, mr_selection_file *file)
 {
-	int end = 0;
+	static const char magic[] = "mr-selection 1 ";
+	const char *at = line + sizeof magic - 1;
+	size_t n = strncmp(line, magic, sizeof magic - 1) ? 0 : strcspn(at, " ");
+	char *end = NULL;
 
-	sscanf(line, "mr-selection 1 %16s %" SCNu64 " %" SCNu64 " %" SCNx32 "%n", file->layer, &file->nv,
-	    &file->nf, &file->checksum, &end);
-	if (end == 0 || line[end])
+	if (n > 0 && n < sizeof file->layer) {
+		memcpy(file->layer, at, n);
+		file->layer[n] = '\0';
+		file->nv = strtoull(at + n, &end, 10);
+		file->nf = strtoull(end, &end, 10);
+		file->checksum = (uint32_t)strtoul(end, &end, 16);
+	}
+	if (!end || *end)
 		return mr_fail(ctx, MR_EFORMAT,
 		    "%s:1: no selection: its first line is mr-selection 1 LAYER VERTICES FACES CHECKSUM",
 		    file->path);
