@@ -31,7 +31,7 @@ assimp_triangle_with_empty_solid.stl|3 1
 assimp_triangle_with_two_solids.stl|6 2
 pdal_bad-geotiff-keys.las|10 0
 pdal_bad_vlr_count.las|10 0
-pdal_badheader.txt|line 1: 'X' is not a number
+pdal_badheader.txt|line 1: column 1 is 'X', not a number
 pdal_crlf_test.txt|10 0
 pdal_gps-time-nan.las|1 0
 pdal_issue_2421.ply|1 0
