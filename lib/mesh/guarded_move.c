@@ -81,6 +81,9 @@ mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to
  * itself. */
 static const double TURN = 0.5;
 
+/* Of 2 degrees: a fold that comes turns one of its faces by more, and most faces are not to be looked at. */
+static const double STILL = 0.999390827019096;
+
 typedef struct unfolded {
 	mr_mesh from, to;
 	const uint32_t *twin;
@@ -100,7 +103,9 @@ turns(const void *arg, uint32_t f)
 	if (area2 < least * least &&
 	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
 		return true;
-	return turn <= 0 || turn * turn <= TURN * TURN * mr_norm2(before) * area2 ||
+	if (turn <= 0 || turn * turn <= TURN * TURN * mr_norm2(before) * area2)
+		return true;
+	return turn * turn <= STILL * STILL * mr_norm2(before) * area2 &&
 	       mr_folds_more(&s->from, &s->to, s->twin, f, MR_NEAR_FOLD);
 }
 
