@@ -430,6 +430,7 @@ has_texcoord(const double *uv)
 static void
 put_texcoords(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
 {
+	static const double none[2] = { 0, 1 };
 	char *to = NULL;
 
 	new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC2", &to, accessor);
@@ -438,8 +439,9 @@ put_texcoords(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
 		if (m->corner_texcoord && v->corner[i] != MR_NONE)
 			uv = m->corner_texcoord + 2 * (size_t)v->corner[i];
 		w->large |= uv && isfinite(uv[0] + uv[1]) && !has_texcoord(uv);
-		to = mr_store_float(to, has_texcoord(uv) ? (float)uv[0] : 0);
-		to = mr_store_float(to, has_texcoord(uv) ? (float)(1 - uv[1]) : 0);
+		uv = has_texcoord(uv) ? uv : none;
+		to = mr_store_float(to, (float)uv[0]);
+		to = mr_store_float(to, (float)(1 - uv[1]));
 	}
 }
 

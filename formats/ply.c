@@ -213,11 +213,11 @@ choose_face_properties(ply *f, element *e)
 static void
 choose_properties(ply *f)
 {
-	for (element *e = f->element; e < f->element + f->elements; e++)
-		if (e->kind == VERTEX)
-			choose_vertex_properties(f, e);
-		else if (e->kind == FACE)
-			choose_face_properties(f, e);
+	for (size_t i = 0; i < f->elements; i++)
+		if (f->element[i].kind == VERTEX)
+			choose_vertex_properties(f, &f->element[i]);
+		else if (f->element[i].kind == FACE)
+			choose_face_properties(f, &f->element[i]);
 }
 
 static mr_status
