@@ -435,10 +435,10 @@ put_texcoords(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
 
 	new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC2", &to, accessor);
 	for (size_t i = 0; i < v->count; i++) {
-		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : NULL;
+		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : none;
 		if (m->corner_texcoord && v->corner[i] != MR_NONE)
 			uv = m->corner_texcoord + 2 * (size_t)v->corner[i];
-		w->large |= uv && isfinite(uv[0] + uv[1]) && !has_texcoord(uv);
+		w->large |= isfinite(uv[0] + uv[1]) && !has_texcoord(uv);
 		uv = has_texcoord(uv) ? uv : none;
 		to = mr_store_float(to, (float)uv[0]);
 		to = mr_store_float(to, (float)(1 - uv[1]));
