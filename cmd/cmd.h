@@ -92,9 +92,8 @@ mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN
  * passes. */
 mr_status cmd_layer_name(cmd *c, const char *option, const char *name) MR_WARN_UNUSED;
 
-/* For prepare, of a sink that names its output: MR_EUSAGE where its first operand, `what`, is not there, or,
- * where a suffix is given, does not end in it or is a terminal; and where there are others, which it does not
- * read. */
+/* For the prepare of a sink.  MR_EUSAGE unless the first operand, `what`, names an output that ends in `suffix`
+ * (NULL: in anything, and a terminal will do), and where more operands follow than the tool reads. */
 mr_status cmd_output_name(cmd *c, const char *what, const char *suffix) MR_WARN_UNUSED;
 
 /* For prepare, of a tool with operands of its own: reads that instead of stdin.  MR_EUSAGE beside -i. */

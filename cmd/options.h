@@ -35,7 +35,7 @@ typedef struct cmd_opt {
 	mr_status (*call)(mr_ctx *ctx, const struct cmd_opt *option, const char *argument);
 } cmd_opt;
 
-/* Where a CMD_LENGTH is put: field `name` of the struct, behind which `name`_relative must stand. */
+/* The address of field `name` for a CMD_LENGTH; field `name`_relative must follow it. */
 #define CMD_LENGTH_OF(type, object, name)                                                                    \
 	(&(object).name +                                                                                    \
 	    0 * sizeof(char[offsetof(type, name##_relative) == offsetof(type, name) + sizeof(double) ? 1     \

@@ -534,7 +534,7 @@ lines_of(const mr_name_table *names)
 	return names->bytes ? (mr_lines){ names->text, names->bytes - 1 } : (mr_lines){ NULL, 0 };
 }
 
-/* What faces are marked with, of each triangle. */
+/* Gives each triangle the marks of its face. */
 static void
 put_marks(mr_builder *b, const uint32_t *face)
 {

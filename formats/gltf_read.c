@@ -181,7 +181,7 @@ find_scene(const mr_gltf *g, instances *s)
 /* How a primitive makes faces of its vertices. */
 enum { POINTS = 0, LINE_STRIP = 3, TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
-/* What vertices have. */
+/* Attributes of vertices. */
 enum { POSITION, NORMAL, TEXCOORD, COLOR, ATTRIBUTES };
 
 /* A primitive of a mesh of the scene, and its accessors; MR_UNKNOWN: none. */
@@ -405,7 +405,7 @@ read_column(reader *r, const part *p, size_t k)
 	return MR_OK;
 }
 
-/* What some parts have, the others have not. */
+/* Reads attribute k; parts without it get its default where others have it. */
 static mr_status
 read_columns(reader *r, size_t k)
 {

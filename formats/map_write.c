@@ -278,7 +278,7 @@ check_place(mr_ctx *ctx, const char *name, const char *path)
 	           : mr_fail(ctx, MR_EUSAGE, "%s is of no map, and would be lost: give another name", path);
 }
 
-/* What control has had, be it of an earlier map. */
+/* Tells of the columns of control that the map replaces. */
 static void
 lose_replaced(mr_ctx *ctx, mr_frame *f)
 {
