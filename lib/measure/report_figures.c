@@ -48,6 +48,14 @@ figures_json(mr_text *t, const figure *table, size_t n, const void *values)
 	}
 }
 
+/* A name with blanks. */
+static void
+name_text(mr_text *t, const char *name)
+{
+	for (; *name; name++)
+		mr_text_add(t, "%c", *name == '_' ? ' ' : *name);
+}
+
 /* The same in lines, of which the first figure begins one. */
 static void
 figures_text(mr_text *t, const figure *table, size_t n, const void *values)
@@ -62,7 +70,9 @@ figures_text(mr_text *t, const figure *table, size_t n, const void *values)
 		}
 		if (table[i].kind == FLAW && *(const size_t *)x == 0)
 			continue;
-		mr_text_add(t, "%s %s ", any ? "," : "", table[i].name);
+		mr_text_add(t, any ? ", " : " ");
+		name_text(t, table[i].name);
+		mr_text_add(t, " ");
 		value(t, &table[i], x, false);
 		any = true;
 	}

@@ -180,7 +180,7 @@ mr-import above.off | mr-smooth | mr-select --free all --fixed below:y,0.3 --han
 echo 'a lid that is lifted: the middles of its edges go with it' >&2
 mr-make cube -n 8 -o low.mrs
 mr-transform -t 0,0,2 low.mrs | mr-cat --append low.mrs - | mr-smooth -t 0 | mr-select --fixed part:1 --handle 0=part:2 | mr-encode |
-	mr-pose -t 0,0,3 | mr-solve --apart | mr-decode | mr-compare -a base -b mesh | grep -c 'vertex_max 0,'
+	mr-pose -t 0,0,3 | mr-solve --apart | mr-decode | mr-compare -a base -b mesh | grep -c 'vertex max 0,'
 echo 'a bar of twelve faces, none of whose vertices is free' >&2
 mr-transform -s 1,1,12 low.mrs | tee bar.mrs | mr-smooth -t 0 | mr-select --free all --fixed below:z,0.2 --handle 0=above:z,0.8 |
 	mr-encode | mr-pose -r 0,0,1,180 | mr-solve | mr-decode >/dev/null

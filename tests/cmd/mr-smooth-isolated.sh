@@ -2,7 +2,7 @@
 mr-make bumpy -n 2000 | mr-export -f off - | awk 'NR == 2 { $1 += 3 } NR == 3 { print "0.9 0.9 0.9\n0 0 0\n0.3 -1 0.4" }
 	NR > 2 && $1 == 3 && NF == 4 { for (k = 2; k <= 4; k++) $k += 3 } { print }' >scan.off
 mr-import scan.off -o scan.mrs
-mr-info scan.mrs | grep -o 'isolated_vertices [0-9]*'
+mr-info scan.mrs | grep -o 'isolated vertices [0-9]*'
 mr-smooth -t 5 -v scan.mrs -o smooth.mrs
 mr-remesh smooth.mrs -o remeshed.mrs
 for base in smooth remeshed; do

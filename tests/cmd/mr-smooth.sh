@@ -6,7 +6,7 @@ radius() { # of the layer base: mean distance from the origin over that of the m
 	done | awk '{ r[NR] = $1 } END { print r[2] / r[1] }'
 }
 mr-make sphere -n 10000 -o sphere.mrs
-mr-info sphere.mrs | sed -n 's/.*edge_mean \([^,]*\),.*/\1/p' >edge # mean h, of a unit sphere
+mr-info sphere.mrs | sed -n 's/.*edge mean \([^,]*\),.*/\1/p' >edge # mean h, of a unit sphere
 for t in 10 100; do
 	mr-smooth --plain -t $t sphere.mrs -o out.mrs # p' = p / (1 + 2 t h^2)
 	radius out.mrs | awk -v t=$t -v h="$(cat edge)" '{ x = 1 / (1 + 2 * t * h * h); e = $1 / x - 1

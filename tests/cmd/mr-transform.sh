@@ -109,7 +109,7 @@ echo 'what keeps detail from following is left behind with -l mesh'
 mr-make torus -n 300 | mr-smooth | mr-encode | mr-decode -o encoded.mrs
 mr-transform -l mesh --scale 1,2,1 encoded.mrs | mr-export -l mesh stretched.off
 mr-make torus -n 300 | mr-transform --scale 1,2,1 | mr-export same.off
-mr-compare stretched.off same.off | awk '/vertex_max/ { print ($3 + 0 < 1e-12 ? "same" : $3) }'
+mr-compare stretched.off same.off | awk '/vertex max/ { print ($4 + 0 < 1e-12 ? "same" : $4) }'
 echo 'pictures of heights keep their size, and that is told; the range does not'
 mr-make sphere -n 60 | mr-simplify --to control -n 40 | mr-sample -q -n 1 | mr-map -w relief -o mapped.mrs
 for change in '--scale 2' '--rotate 1,2,3,40' '-l mesh --scale 2'; do

@@ -15,7 +15,7 @@ awk 'BEGIN {
 }' >sphere.obj
 mr-import sphere.obj | mr-smooth | mr-remesh | mr-select --reset --free all --fixed below:x,0.2 --handle 0=above:x,0.8 |
     mr-encode -o rest.mrs || exit 1
-mr-info rest.mrs | grep -q 'boundary_loops 2' || { echo "the holes are closed"; fail=1; }
+mr-info rest.mrs | grep -q 'boundary loops 2' || { echo "the holes are closed"; fail=1; }
 mr-pose -H 0 --translate 0.3,0,0 rest.mrs | mr-solve | mr-decode -q | mr-export after.obj || exit 1
 paste -d ' ' sphere.obj after.obj | awk '
 	$1 == "v" {

@@ -148,7 +148,7 @@ broken_layers_are_reported(void **state)
 	assert_int_equal(mr_report_frame(&ctx, f, &human, &b, NULL), MR_OK);
 	assert_non_null(strstr(b.s, "    invalid        mesh: face 1 has vertex 9 of 4\n"));
 	assert_non_null(strstr(b.s, "  history          one \"line\"\n                   two\n"));
-	assert_non_null(strstr(b.s, "    points         not_finite 1, duplicates 1,"));
+	assert_non_null(strstr(b.s, "    points         not finite 1, duplicates 1,"));
 	mr_ctx_free(&ctx);
 }
 
