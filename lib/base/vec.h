@@ -155,6 +155,25 @@ mr_finite(mr_v3 a)
 	return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
+/* The first of n numbers that is not finite; n: all are.  Looked at by their exponents, so that it costs
+ * little where nothing is wrong. */
+static inline size_t
+mr_first_infinite(const double *x, size_t n)
+{
+	uint64_t seen = 0, bits;
+	size_t first = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		memcpy(&bits, x + i, sizeof bits);
+		seen |= (bits & (uint64_t)0x7ff << 52) + ((uint64_t)1 << 52);
+	}
+	if (!(seen >> 63))
+		return n;
+	while (isfinite(x[first]))
+		first++;
+	return first;
+}
+
 /* T a */
 static inline mr_v3
 mr_apply(const mr_affine *t, mr_v3 a)

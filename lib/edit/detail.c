@@ -354,13 +354,14 @@ check_row(mr_ctx *ctx, const mr_detail *d, size_t i, const char *base, size_t nf
 mr_status
 mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 {
+	size_t odd;
+
 	for (size_t i = 0; i < d->n; i++)
 		MR_TRY(check_row(ctx, d, i, base->name, base->nf));
-	for (size_t i = 0; i < base->nv; i++)
-		if (!mr_finite(d->rest[i]))
-			return mr_fail(ctx, MR_ERANGE, "%s: encoded %zu (%g %g %g) is not finite", base->name,
-			    i, d->rest[i].x, d->rest[i].y, d->rest[i].z);
-	return MR_OK;
+	odd = mr_first_infinite((const double *)d->rest, 3 * base->nv) / 3;
+	return odd == base->nv ? MR_OK
+	                       : mr_fail(ctx, MR_ERANGE, "%s: encoded %zu (%g %g %g) is not finite",
+				     base->name, odd, d->rest[odd].x, d->rest[odd].y, d->rest[odd].z);
 }
 
 typedef struct decoder {

@@ -48,7 +48,7 @@ mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *respon
 mr_status
 mr_response_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const double **response, mr_handle_rows *handles)
 {
-	size_t width = mr_frame_find(f, m->name, "response")->shape.components;
+	size_t width = mr_frame_find(f, m->name, "response")->shape.components, odd;
 	const void *values;
 
 	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &values));
@@ -58,10 +58,8 @@ mr_response_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const double **respo
 		    "%s: column response has %zu values a vertex, not 4 for each of %zu handles", m->name,
 		    width, handles->n);
 	*response = values;
-	for (size_t i = 0; i < m->nv * width; i++)
-		if (!isfinite((*response)[i]))
-			return mr_fail(ctx, MR_ERANGE, "%s: response %zu is not finite", m->name, i / width);
-	return MR_OK;
+	odd = mr_first_infinite(values, m->nv * width) / width;
+	return odd == m->nv ? MR_OK : mr_fail(ctx, MR_ERANGE, "%s: response %zu is not finite", m->name, odd);
 }
 
 mr_status

@@ -87,22 +87,27 @@ mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, cons
 static mr_status
 check_finite(mr_ctx *ctx, const mr_mesh *m)
 {
-	for (size_t i = 0; i < m->nv; i++)
-		if (!mr_finite(m->p[i]))
-			return mr_fail(ctx, MR_ERANGE, "%s: position %zu (%g %g %g) is not finite", m->name,
-			    i, m->p[i].x, m->p[i].y, m->p[i].z);
-	return MR_OK;
+	size_t i = mr_first_infinite((const double *)m->p, 3 * m->nv) / 3;
+
+	return i == m->nv ? MR_OK
+	                  : mr_fail(ctx, MR_ERANGE, "%s: position %zu (%g %g %g) is not finite", m->name, i,
+				m->p[i].x, m->p[i].y, m->p[i].z);
 }
 
 static mr_status
 check_indices(mr_ctx *ctx, const mr_mesh *m)
 {
-	for (size_t f = 0; f < m->nf; f++)
-		for (int i = 0; i < 3; i++)
-			if (m->t[f].v[i] >= m->nv)
-				return mr_fail(ctx, MR_ERANGE, "%s: face %zu has vertex %u of %zu", m->name,
-				    f, m->t[f].v[i], m->nv);
-	return MR_OK;
+	const uint32_t *v = m->t->v;
+	uint32_t end = (uint32_t)m->nv, bad = 0;
+	size_t i = 0;
+
+	for (size_t k = 0; k < 3 * m->nf; k++)
+		bad |= v[k] < end ? 0 : 1;
+	if (!bad)
+		return MR_OK;
+	while (v[i] < end)
+		i++;
+	return mr_fail(ctx, MR_ERANGE, "%s: face %zu has vertex %u of %zu", m->name, i / 3, v[i], m->nv);
 }
 
 /* In the order of what makes them: MR_MAKE_MESH and on. */
@@ -144,13 +149,15 @@ static const double LARGEST = 1e30;
 static mr_status
 check_size(mr_ctx *ctx, const mr_mesh *m)
 {
-	double most = 0;
+	const double *x = (const double *)m->p;
+	size_t n = 3 * m->nv, i = 0;
+	double lane[4] = { 0 }, most = 0; /* side by side, as the machine has them */
 
-	for (size_t i = 0; i < m->nv; i++) {
-		mr_v3 p = m->p[i];
-		for (int k = 0; k < 3; k++)
-			most = fabs(mr_coordinate(p, k)) > most ? fabs(mr_coordinate(p, k)) : most;
-	}
+	for (; i + 4 <= n; i += 4)
+		for (size_t k = 0; k < 4; k++)
+			lane[k] = fabs(x[i + k]) > lane[k] ? fabs(x[i + k]) : lane[k];
+	for (size_t k = 0; k < 4; k++)
+		most = fmax(most, fmax(lane[k], i + k < n ? fabs(x[i + k]) : 0));
 	if (most == 0 || (most >= 1 / LARGEST && most <= LARGEST))
 		return MR_OK;
 	return mr_advise(ctx, MR_RESCALE,

@@ -56,7 +56,7 @@ mr_check_finite(mr_ctx *ctx, const mr_column *c)
 
 	if (c->shape.type != 'd' || !mr_column_known(c->layer, c->name))
 		return MR_OK; /* a file's own numbers may be anything */
-	for (size_t i = 0; i < c->rows * width; i++)
+	for (size_t i = mr_first_infinite(x, c->rows * width); i < c->rows * width; i++)
 		if (!isfinite(x[i]) && !(may_lack && isnan(x[i])))
 			return mr_fail(ctx, MR_ERANGE, "%s: column %s, row %zu: component %zu is %g",
 			    c->layer, c->name, i / width, i % width, isnan(x[i]) ? NAN : x[i]);

@@ -16,21 +16,24 @@ mr_print_word(uint64_t print, uint64_t word)
 	return print ^ print >> 32;
 }
 
-/* The print of n bytes, word by word. */
+/* The print of n bytes: of four rows of words, which the machine works on at the same time. */
 static inline uint64_t
 mr_fingerprint(const void *data, size_t n)
 {
-	uint64_t print = ~(uint64_t)n, word;
+	uint64_t print[4] = { ~(uint64_t)n, 1, 2, 3 }, word[4] = { 0 };
 	const char *p = data;
 
-	for (; n >= 8; p += 8, n -= 8) {
-		memcpy(&word, p, 8);
-		print = mr_print_word(print, word);
+	for (; n >= sizeof word; p += sizeof word, n -= sizeof word) {
+		memcpy(word, p, sizeof word);
+		for (int k = 0; k < 4; k++)
+			print[k] = mr_print_word(print[k], word[k]);
 	}
-	word = 0;
+	memset(word, 0, sizeof word);
 	if (n)
-		memcpy(&word, p, n);
-	return mr_print_word(print, word);
+		memcpy(word, p, n);
+	for (int k = 0; k < 4; k++)
+		print[0] = mr_print_word(print[0], mr_print_word(print[k], word[k]));
+	return print[0];
 }
 
 #endif

@@ -92,15 +92,13 @@ read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **col
 static mr_status
 check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 {
-	size_t bad = 0;
+	size_t v = mr_first_infinite((const double *)p, 3 * m->nv) / 3;
 
-	for (size_t v = 0; v < m->nv; v++)
-		bad += !mr_finite(p[v]);
-	return bad ? mr_fail(ctx, MR_ERANGE,
-			 "%s: %zu of %zu vertices go beyond all numbers: its coordinates, or those of its "
-			 "handles, are too large",
-			 m->name, bad, m->nv)
-	           : MR_OK;
+	return v == m->nv ? MR_OK
+	                  : mr_fail(ctx, MR_ERANGE,
+				"%s: vertex %zu goes beyond all numbers: its coordinates, or those of its "
+				"handles, are too large",
+				m->name, v);
 }
 
 /* Nothing is to be solved for: the positions are those of rest. */
