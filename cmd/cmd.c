@@ -9,6 +9,7 @@
 #include "mesh/validate.h"
 #include "place.h"
 #include "signals.h"
+#include "solve/solver.h"
 #include "stream/record.h"
 
 #include <errno.h>
@@ -871,6 +872,7 @@ main(int argc, char **argv)
 	fill_closed();
 	signals_begin(c.name);
 	mr_memory_begin();
+	mr_serial_for_good();
 	mr_ctx_init(&c.ctx, 0);
 	c.ctx.listener.user = &c;
 	c.ctx.permit = permit; /* options read files, too */

@@ -5,13 +5,13 @@
 mr_mat3
 mr_rotation_exp(mr_v3 w)
 {
-	double angle = mr_norm(w), half, a, b;
+	double angle = mr_norm(w), half, a, b; /* by sine and cosine of one angle, which come together */
 	mr_mat3 r = mr_mat3_identity();
 
 	if (angle == 0)
 		return r;
 	half = sin(angle / 2) / (angle / 2);
-	a = sin(angle) / angle;
+	a = half * cos(angle / 2); /* sin / angle */
 	b = half * half / 2; /* (1 - cos) / angle^2 */
 	r.m[0] -= b * (w.y * w.y + w.z * w.z);
 	r.m[4] -= b * (w.x * w.x + w.z * w.z);

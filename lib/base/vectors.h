@@ -13,4 +13,8 @@
 #define MR_INLINED inline
 #endif
 
+/* Four numbers side by side: two registers where a machine has no wider ones, to the same bits.  Not to be
+ * passed by value. */
+typedef double mr_wide __attribute__((vector_size(4 * sizeof(double))));
+
 #endif

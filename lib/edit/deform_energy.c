@@ -4,9 +4,15 @@
 
 #include "base/parallel.h"
 #include "base/rotation.h"
+#include "base/vectors.h"
 #include "op/laplace.h"
 
 enum { GRAIN = 1024 };
+
+/* A matrix by its columns. */
+typedef struct columns {
+	mr_wide c[3];
+} columns;
 
 /* Vertices and faces are those of the patch. */
 struct mr_energies {
@@ -17,13 +23,13 @@ struct mr_energies {
 	uint32_t *handle;    /* their regions */
 	double *weight;      /* count for each vertex */
 	double (*cot)[3];    /* of each face */
-	mr_incidence around; /* faces of each vertex */
+	mr_incidence around; /* corners of each vertex: 3 f + k */
 	mr_section *section; /* count for each face */
 	mr_mesh inside;      /* for rounds */
 	/* Workspace, kept from pose to pose. */
 	mr_v3 *rest, *q, *before; /* a vertex each */
-	mr_mat3 *map;             /* A of each vertex, less that of the whole */
-	mr_v3 *corner;            /* 3 for each face */
+	columns *map;             /* A of each vertex, less that of the whole */
+	mr_wide *corner;          /* 3 for each face */
 	double *source;           /* 3 for each vertex */
 };
 
@@ -43,11 +49,11 @@ typedef struct turning {
 
 /*
  * An energy: the local step gives each free vertex a map, and the corners of a face shall be, up to a shift,
- * where `place` has them, less where the whole has.
+ * where these have them, less where the whole has.  place: of faces, what each corner has of the divergence.
  */
 typedef struct energy {
 	mr_mat3 (*local)(const turning *t, size_t i);
-	void (*place)(const turning *t, size_t f, mr_v3 corner[3]);
+	mr_body place;
 } energy;
 
 /* Handles' maps */
@@ -138,8 +144,28 @@ interpolate(const turning *t, size_t i)
 	return mr_mat3_multiply(&r, &s);
 }
 
+/* a x */
+static MR_INLINED void
+apply(const columns *a, mr_v3 x, mr_wide *to)
+{
+	*to = a->c[0] * x.x + a->c[1] * x.y + a->c[2] * x.z;
+}
+
+/* What each corner of a face has of the divergence of its gradient. */
+static MR_INLINED void
+put_sources(const turning *t, size_t f, const mr_wide p[3])
+{
+	const double *cot = t->e->cot[f];
+
+	for (int k = 0; k < 3; k++) {
+		int next = (k + 1) % 3, last = (k + 2) % 3;
+		t->e->corner[3 * f + (size_t)k] = cot[last] / 2 * (p[k] - p[next]) +
+		                                  cot[next] / 2 * (p[k] - p[last]);
+	}
+}
+
 /* The place about which a face turns: the sections of several handles count by how much they turn there. */
-static mr_v3
+static MR_INLINED mr_v3
 center_of(const turning *t, size_t f)
 {
 	const mr_section *s = t->e->section + t->e->count * f;
@@ -154,14 +180,19 @@ center_of(const turning *t, size_t f)
 	return all > 0 ? mr_mul(1 / all, sum) : t->e->rest[t->e->s->patch.mesh.t[f].v[0]];
 }
 
-static void
-place_about_section(const turning *t, size_t f, mr_v3 corner[3])
+MR_VECTORS static void
+place_about_sections(void *arg, size_t begin, size_t end)
 {
-	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
-	mr_v3 center = center_of(t, f);
+	const turning *t = arg;
 
-	for (int k = 0; k < 3; k++)
-		corner[k] = mr_mat3_apply(&t->e->map[v[k]], mr_sub(t->e->rest[v[k]], center));
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = t->e->s->patch.mesh.t[f].v;
+		mr_v3 center = center_of(t, f);
+		mr_wide p[3];
+		for (int k = 0; k < 3; k++)
+			apply(&t->e->map[v[k]], mr_sub(t->e->rest[v[k]], center), &p[k]);
+		put_sources(t, f, p);
+	}
 }
 
 /* The local step of rounds: the rotation that takes the faces around a vertex best to where they are, times
@@ -173,10 +204,11 @@ fit(const turning *t, size_t i)
 	mr_mat3 sum = { { 0 } }, s = stretch_at(t, i), r;
 
 	for (size_t n = e->around.start[i]; n < e->around.start[i + 1]; n++) {
-		const uint32_t *v = e->s->patch.mesh.t[e->around.face[n]].v;
+		uint32_t f = e->around.face[n] / 3;
+		const uint32_t *v = e->s->patch.mesh.t[f].v;
 		for (int k = 0; k < 3; k++) {
 			uint32_t a = v[k], b = v[(k + 1) % 3];
-			double w = e->cot[e->around.face[n]][(k + 2) % 3];
+			double w = e->cot[f][(k + 2) % 3];
 			mr_v3 x = mr_mat3_apply(&s, mr_sub(e->rest[a], e->rest[b]));
 			mr_v3 y = mr_sub(e->q[a], e->q[b]);
 			mr_mat3_add_product(&sum, w, y, x); /* symmetric at rest, to the bit */
@@ -187,20 +219,25 @@ fit(const turning *t, size_t i)
 }
 
 /* By the mean of the corners' maps. */
-static void
-place_about_face(const turning *t, size_t f, mr_v3 corner[3])
+MR_VECTORS static void
+place_about_faces(void *arg, size_t begin, size_t end)
 {
-	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
-	const mr_mat3 *a = &t->e->map[v[0]], *b = &t->e->map[v[1]], *c = &t->e->map[v[2]];
-	mr_mat3 mean;
+	const turning *t = arg;
 
-	for (int i = 0; i < 9; i++)
-		mean.m[i] = (a->m[i] + b->m[i] + c->m[i]) / 3;
-	for (int k = 0; k < 3; k++)
-		corner[k] = mr_mat3_apply(&mean, mr_sub(t->e->rest[v[k]], t->e->rest[v[0]]));
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = t->e->s->patch.mesh.t[f].v;
+		const columns *a = &t->e->map[v[0]], *b = &t->e->map[v[1]], *c = &t->e->map[v[2]];
+		columns mean;
+		mr_wide p[3];
+		for (int i = 0; i < 3; i++)
+			mean.c[i] = (a->c[i] + b->c[i] + c->c[i]) / 3;
+		for (int k = 0; k < 3; k++)
+			apply(&mean, mr_sub(t->e->rest[v[k]], t->e->rest[v[0]]), &p[k]);
+		put_sources(t, f, p);
+	}
 }
 
-static const energy interpolated = { interpolate, place_about_section }, rigid = { fit, place_about_face };
+static const energy interpolated = { interpolate, place_about_sections }, rigid = { fit, place_about_faces };
 
 /* Steps */
 
@@ -214,42 +251,23 @@ local_step(void *arg, size_t begin, size_t end)
 	for (size_t i = begin; i < end; i++) {
 		mr_mat3 a = i < patch->end[0] ? t->energy->local(t, i)
 		                              : linear_of(t, t->e->region[patch->vertex[i]]);
-		t->e->map[i] = mr_mat3_axpy(-1, &t->whole, &a);
+		a = mr_mat3_axpy(-1, &t->whole, &a);
+		for (int k = 0; k < 3; k++)
+			t->e->map[i].c[k] = (mr_wide){ a.m[k], a.m[3 + k], a.m[6 + k], 0 };
 	}
 }
 
-/* What each corner of a face has of the divergence of its gradient. */
-static void
-face_sources(void *arg, size_t begin, size_t end)
-{
-	const turning *t = arg;
-
-	for (size_t f = begin; f < end; f++) {
-		const double *cot = t->e->cot[f];
-		mr_v3 *out = t->e->corner + 3 * f, p[3];
-		t->energy->place(t, f, p);
-		for (int k = 0; k < 3; k++) {
-			int next = (k + 1) % 3, last = (k + 2) % 3;
-			out[k] = mr_add(mr_mul(cot[last] / 2, mr_sub(p[k], p[next])),
-			    mr_mul(cot[next] / 2, mr_sub(p[k], p[last])));
-		}
-	}
-}
-
-static void
+MR_VECTORS static void
 gather_sources(void *arg, size_t begin, size_t end)
 {
 	const turning *t = arg;
 	const mr_incidence *around = &t->e->around;
 
 	for (size_t i = begin; i < end; i++) {
-		mr_v3 sum = mr_vec(0, 0, 0);
-		for (size_t n = around->start[i]; n < around->start[i + 1]; n++) {
-			size_t f = around->face[n];
-			const uint32_t *v = t->e->s->patch.mesh.t[f].v;
-			sum = mr_add(sum, t->e->corner[3 * f + (v[0] == i ? 0 : v[1] == i ? 1 : 2)]);
-		}
-		memcpy(t->e->source + 3 * i, &sum, sizeof sum);
+		mr_wide sum = { 0, 0, 0, 0 };
+		for (size_t n = around->start[i]; n < around->start[i + 1]; n++)
+			sum += t->e->corner[around->face[n]];
+		memcpy(t->e->source + 3 * i, &sum, 3 * sizeof(double));
 	}
 }
 
@@ -261,7 +279,7 @@ source_of(mr_ctx *ctx, turning *t, const energy *of)
 
 	t->energy = of;
 	mr_parallel(ctx, s->patch.mesh.nv, GRAIN, local_step, t);
-	mr_parallel(ctx, s->patch.mesh.nf, GRAIN, face_sources, t);
+	mr_parallel(ctx, s->patch.mesh.nf, GRAIN, of->place, t);
 	mr_parallel(ctx, s->patch.end[s->opts.order - 1], GRAIN, gather_sources, t);
 	return t->e->source;
 }
@@ -415,12 +433,17 @@ make_room(mr_ctx *ctx, mr_energies *e)
 	e->rest = MR_NEW(ctx, m->nv, mr_v3);
 	e->q = MR_NEW(ctx, m->nv, mr_v3);
 	e->before = MR_NEW(ctx, m->nv, mr_v3);
-	e->map = MR_NEW(ctx, m->nv, mr_mat3);
-	e->corner = MR_NEW(ctx, 3 * m->nf, mr_v3);
+	e->map = MR_NEW(ctx, m->nv, columns);
+	e->corner = MR_NEW(ctx, 3 * m->nf, mr_wide);
 	e->source = MR_NEW(ctx, 3 * m->nv, double);
 	for (size_t f = 0; f < m->nf; f++)
 		mr_cotangents(m->p[m->t[f].v[0]], m->p[m->t[f].v[1]], m->p[m->t[f].v[2]], e->cot[f]);
 	mr_incidence_build(ctx, m, &e->around);
+	for (uint32_t i = 0; i < m->nv; i++)
+		for (size_t n = e->around.start[i]; n < e->around.start[i + 1]; n++) {
+			const uint32_t *v = m->t[e->around.face[n]].v;
+			e->around.face[n] = 3 * e->around.face[n] + (v[0] == i ? 0 : v[1] == i ? 1 : 2);
+		}
 }
 
 mr_status

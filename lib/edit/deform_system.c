@@ -223,8 +223,9 @@ find_residual(const mr_ctx *ctx, const mr_deform_system *s, mr_field *f)
 		const double *w = step < k || s->opts.unsymmetric ? s->w : NULL;
 		size_t rows = s->patch.end[k - step];
 		mr_sparse_apply(ctx, &s->l, w, rows, f->width, x, y);
-		for (size_t i = 0; step == 1 && f->source && i < rows * f->width; i++)
-			y[i] -= (w ? w[i / f->width] : 1) * f->source[i];
+		for (size_t i = 0; step == 1 && f->source && i < rows; i++)
+			for (size_t c = i * f->width; c < (i + 1) * f->width; c++)
+				y[c] -= (w ? w[i] : 1) * f->source[c];
 		x = y;
 	}
 	for (size_t c = 0; c < f->width; c++)

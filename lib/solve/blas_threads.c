@@ -17,6 +17,7 @@ typedef union function {
 	void *symbol;
 	void (*set)(int);
 	int (*get)(void);
+	int (*end)(void);
 } function;
 
 static function
@@ -37,7 +38,8 @@ mr_serial_begin(void)
 	pthread_mutex_lock(&lock);
 	if (inside++ == 0 && blas_get.symbol && blas_set.symbol) {
 		blas_before = blas_get.get();
-		blas_set.set(1);
+		if (blas_before > 1) /* to set it starts threads */
+			blas_set.set(1);
 	}
 	pthread_mutex_unlock(&lock);
 	return before;
@@ -49,11 +51,22 @@ mr_serial_end(int before)
 	function set = find("omp_set_max_active_levels"), blas_set = find("openblas_set_num_threads");
 
 	pthread_mutex_lock(&lock);
-	if (--inside == 0 && blas_before > 0) {
+	if (--inside == 0 && blas_before > 1)
 		blas_set.set(blas_before);
-		blas_before = 0;
-	}
 	pthread_mutex_unlock(&lock);
 	if (set.symbol)
 		set.set(before);
+}
+
+void
+mr_serial_for_good(void)
+{
+	function set = find("openblas_set_num_threads"), end;
+
+	if (!set.symbol)
+		return;
+	set.set(1);
+	end = find("blas_thread_shutdown_");
+	if (end.symbol)
+		end.end();
 }

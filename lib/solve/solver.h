@@ -96,4 +96,8 @@ mr_status mr_solver_solve(mr_ctx *ctx, mr_solver *solver, double *b, size_t colu
 
 mr_solver_report mr_solver_reported(const mr_solver *solver);
 
+/* For a process that calls no BLAS but by solvers: OpenBLAS's threads, which wait for work by turning round
+ * for 25 ms each, end. */
+void mr_serial_for_good(void);
+
 #endif

@@ -5,9 +5,8 @@
 #include "base/parallel.h"
 #include "base/vectors.h"
 
-/* A row of x: the right-hand sides that are solved together, whatever their number.  Two registers where a
- * machine has no wider ones, to the same bits. */
-typedef double wide __attribute__((vector_size(4 * sizeof(double))));
+/* A row of x: the right-hand sides that are solved together, whatever their number. */
+typedef mr_wide wide;
 
 enum { WIDTH = 4 };
 
