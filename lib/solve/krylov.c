@@ -144,7 +144,7 @@ precondition(mr_ctx *ctx, krylov *k, const mr_system *system)
 		return mr_vcycle_new(ctx, system->a, system->hierarchy, &k->b);
 	if (k->opts.kind == MR_MULTIGRID)
 		return mr_multigrid_new(ctx, system->a, system->hierarchy, &k->b);
-	return mr_incomplete_new(ctx, system->a, system->laplacian, &k->b);
+	return mr_incomplete_new(ctx, system->a, false, &k->b);
 }
 
 static mr_status

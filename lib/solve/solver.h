@@ -44,7 +44,6 @@ typedef struct mr_hierarchy {
 /* What is to be solved.  Iterative solvers borrow it: it must outlive them; direct ones do not. */
 typedef struct mr_system {
 	const mr_sparse *a;
-	bool laplacian;                /* a is one, with masses or not: it has better factors */
 	const int *part;               /* dissection (mr_dissect) for Cholesky, or NULL */
 	const uint32_t *vertex;        /* of each row, for sentences; NULL: they name the row */
 	const mr_hierarchy *hierarchy; /* for multigrid */

@@ -10,7 +10,8 @@ typedef struct caster {
 	const mr_bvh *bvh;
 	const mr_v3 *normal; /* of the vertices */
 	double least, most;  /* where a ray begins and ends */
-	double *across;      /* of each face */
+	bool *wanted;        /* of each face: whether a ray is cast from it */
+	double *across;      /* of each face; INFINITY: not known */
 } caster;
 
 /* The mean of the corners' normals; zero where they cancel. */
@@ -28,8 +29,39 @@ cast_faces(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		uint32_t f = mr_bvh_order(c->bvh)[i];
+		if (!c->wanted[f] || isfinite(c->across[f]))
+			continue;
 		c->across[f] = mr_bvh_across(c->bvh, mr_place_point(c->m, (mr_place){ f, centre }),
 		    direction_of(c, c->m->t[f].v), c->least, c->most);
+	}
+}
+
+/* First faces without a vertex in common, as many as there is room for. */
+static void
+want_some(const caster *c, bool *taken)
+{
+	for (size_t f = 0; f < c->m->nf; f++) {
+		const uint32_t *v = c->m->t[f].v;
+		c->across[f] = INFINITY;
+		c->wanted[f] = !taken[v[0]] && !taken[v[1]] && !taken[v[2]];
+		if (c->wanted[f])
+			taken[v[0]] = taken[v[1]] = taken[v[2]] = true;
+	}
+}
+
+/* Then all around those where it is few edges: there one ray may tell too little, or too much. */
+static void
+want_thin(const caster *c, const mr_incidence *inc)
+{
+	const double edges = 8;
+
+	for (size_t f = 0; f < c->m->nf; f++) {
+		const uint32_t *v = c->m->t[f].v;
+		double sides = mr_dist(c->m->p[v[0]], c->m->p[v[1]]) + mr_dist(c->m->p[v[1]], c->m->p[v[2]]);
+		if (c->across[f] < fmin(c->most, edges / 2 * sides))
+			for (int k = 0; k < 3; k++)
+				for (size_t i = inc->start[v[k]]; i < inc->start[v[k] + 1]; i++)
+					c->wanted[inc->face[i]] = true;
 	}
 }
 
@@ -44,6 +76,8 @@ median_around(const mr_incidence *inc, size_t v, const double *across, double mo
 	for (size_t i = inc->start[v]; i < inc->start[v + 1] && n < AROUND; i++) {
 		double x = across[inc->face[i]];
 		size_t k = n;
+		if (!isfinite(x))
+			continue;
 		for (; k > 0 && sorted[k - 1] > x; k--)
 			sorted[k] = sorted[k - 1];
 		sorted[k] = x;
@@ -107,6 +141,10 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	mr_bvh_build(ctx, m, &bvh);
 	c.bvh = bvh;
 	c.least = mr_mesh_tolerance(m, 1e-9); /* none meets the face that it leaves */
+	c.wanted = MR_NEW(ctx, m->nf, bool);
+	want_some(&c, MR_NEW_ZERO(ctx, m->nv, bool));
+	mr_parallel(ctx, m->nf, 256, cast_faces, &c);
+	want_thin(&c, &inc);
 	mr_parallel(ctx, m->nf, 256, cast_faces, &c);
 	for (size_t v = 0; v < m->nv; v++)
 		thickness[v] = median_around(&inc, v, c.across, most);
