@@ -146,9 +146,8 @@ mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidenc
 static mr_mat3
 gradient_of(const mr_turn *t, double f)
 {
-	mr_mat3 m = { { f, 0, 0, 0, f, 0, 0, 0, f } };
-
 	double share = t->sum[AREA] > 0 ? f / t->sum[AREA] : 0;
+	mr_mat3 m = { { f, 0, 0, 0, f, 0, 0, 0, f } };
 
 	for (int i = 0; i < 9; i++)
 		m.m[i] += share * t->sum[i];

@@ -17,15 +17,14 @@ typedef struct crowd {
 } crowd;
 
 /* Of faces that have turned against those around them the sum of unit normals is shorter. */
-
 static bool
 turns_against(const mr_ring *r)
 {
 	const float less = 0.15f; /* for each face */
 	mr_float4 then2 = r->then * r->then, now2 = r->now * r->now;
-	float was2 = then2[0] + then2[1] + then2[2], is2 = now2[0] + now2[1] + now2[2];
+	float faces = r->now[3], most = (1 - less) * faces, is2 = now2[0] + now2[1] + now2[2];
 
-	return is2 < was2 && sqrtf(is2) < sqrtf(was2) - less * r->now[3];
+	return is2 < most * most && sqrtf(is2) < sqrtf(then2[0] + then2[1] + then2[2]) - less * faces;
 }
 
 static void
@@ -61,11 +60,11 @@ vector(mr_float4 x)
 	return mr_vec((double)x[0], (double)x[1], (double)x[2]);
 }
 
-/* How far b is before the sheet that a is on, of normals that sum up to `normal`. */
+/* How far b is before the sheet that a is on, times the length of its normal. */
 static double
 before_sheet(const mr_mesh *m, mr_float4 normal, size_t a, size_t b)
 {
-	return mr_dot(mr_unit(vector(normal)), mr_sub(m->p[b], m->p[a]));
+	return mr_dot(vector(normal), mr_sub(m->p[b], m->p[a]));
 }
 
 /* Whether b was on one side of the sheet that a is on, and is on the other: on a sheet that faces the other
@@ -75,11 +74,11 @@ came_by(const crowd *c, size_t a, size_t b)
 {
 	const double clearly = 0.2;
 	const mr_ring *ring = c->m->ring;
-	double was = before_sheet(&c->then, ring[a].then, a, b),
-	       is = before_sheet(&c->now, ring[a].now, a, b);
+	double was = before_sheet(&c->then, ring[a].then, a, b);
 
-	return was * is < 0 && (mr_dot(vector(ring[a].now), vector(ring[b].now)) < 0 ||
-				   fabs(was) > clearly * mr_dist(c->then.p[a], c->then.p[b]));
+	return was * before_sheet(&c->now, ring[a].now, a, b) < 0 &&
+	       (mr_dot(vector(ring[a].now), vector(ring[b].now)) < 0 ||
+		   fabs(was) > clearly * mr_norm(vector(ring[a].then)) * mr_dist(c->then.p[a], c->then.p[b]));
 }
 
 static void
@@ -90,7 +89,7 @@ add_vertex(const crowd *c, content *table, uint32_t v)
 	content *x = content_of(table, at);
 
 	for (int k = 0; k < 3; k++) {
-		float was = (float)(mr_coordinate(c->then.p[v], k) / c->gathered.size);
+		float was = (float)(c->gathered.scale * mr_coordinate(c->then.p[v], k));
 		x->low[k] = x->used && x->low[k] < was ? x->low[k] : was;
 		x->high[k] = x->used && x->high[k] > was ? x->high[k] : was;
 		x->crowded |= x->high[k] - x->low[k] > far;

@@ -322,7 +322,7 @@ normals_of_vertices(void *arg, size_t begin, size_t end)
 		for (size_t i = j->inc->start[v]; i < j->inc->start[v + 1]; i++) {
 			const uint32_t *c = j->m->t[j->inc->face[i]].v;
 			const face_normal *f = &j->face[j->inc->face[i]];
-			sum = mr_axpy(f->angle[c[0] == v ? 0 : c[1] == v ? 1 : 2], f->unit, sum);
+			sum = mr_axpy(f->angle[(c[1] == v) + 2 * (c[2] == v)], f->unit, sum);
 		}
 		j->normal[v] = mr_unit(sum);
 	}

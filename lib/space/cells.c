@@ -6,7 +6,7 @@ enum { BITS = 1 << 17, ACROSS = 4 };
 mr_cells
 mr_cells_new(mr_ctx *ctx, double size)
 {
-	return (mr_cells){ size, MR_NEW_ZERO(ctx, BITS / 32, uint32_t), false };
+	return (mr_cells){ 1 / size, MR_NEW_ZERO(ctx, BITS / 32, uint32_t), false };
 }
 
 static int
@@ -23,9 +23,8 @@ cell_along(double x)
 mr_cell
 mr_cell_of(const mr_cells *c, mr_v3 p)
 {
-	double scale = 1 / c->size;
-
-	return (mr_cell){ { cell_along(scale * p.x), cell_along(scale * p.y), cell_along(scale * p.z) } };
+	return (mr_cell){ { cell_along(c->scale * p.x), cell_along(c->scale * p.y),
+	    cell_along(c->scale * p.z) } };
 }
 
 uint32_t

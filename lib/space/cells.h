@@ -12,7 +12,7 @@ typedef struct mr_cell {
 
 /* Cells are marked in a set of bits by their hash: what is marked by chance is looked at in vain. */
 typedef struct mr_cells {
-	double size;
+	double scale; /* 1 over the side of a cell */
 	uint32_t *bits;
 	bool any;
 } mr_cells;
