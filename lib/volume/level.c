@@ -66,12 +66,12 @@ see(const mr_walls *w, mr_v3 p, wall *of)
 	of->area += (double)w->area[i];
 }
 
-/* A few points that stand for much area are as likely strewn as of a surface: they count as others do. */
+/* A few points that stand for much area are as likely strewn as of a surface: they count as others do, at most. */
 static bool
 is_supported(const mr_walls *w, const wall *of)
 {
 	double points = of->points / SEEN, side = w->s->spacing / w->grid.step;
-	double area = points < MANY ? points * side * side : of->area / SEEN;
+	double area = fmin(of->area / SEEN, points < MANY ? points * side * side : INFINITY);
 
 	return points >= POINTS_LEAST && of->vertices >= VERTICES_LEAST &&
 	       area >= SHARE_LEAST * of->vertices / PER_STEP;
@@ -89,6 +89,8 @@ keep_walls(mr_ctx *ctx, const mr_walls *w, mr_mesh *m)
 	wall *of;
 
 	mr_connected_by_faces(ctx, m, &c);
+	if (c.parts <= 1)
+		return;
 	of = MR_NEW_ZERO(ctx, c.parts, wall);
 	for (size_t v = 0; v < m->nv; v++)
 		see(w, m->p[v], &of[c.part[v]]);
