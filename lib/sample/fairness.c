@@ -15,7 +15,7 @@
 
 #include <float.h>
 
-enum { GRAIN = 2048 };
+enum { GRAIN = 1 << 14 };
 
 typedef struct means {
 	const mr_adjacency *adj;
@@ -189,7 +189,7 @@ validate(mr_ctx *ctx, validation *x, double exponent, double *result)
 	return MR_OK;
 }
 
-/* Where the score is least, to a third of a decade, the score being flat there. */
+/* Where the score is least, to a third of a decade, the score being flat there: it falls, then rises. */
 static mr_status
 search(mr_ctx *ctx, validation *x, double *exponent)
 {
@@ -200,9 +200,10 @@ search(mr_ctx *ctx, validation *x, double *exponent)
 	for (int i = 0; i < TRIALS; i++) {
 		double at = low + step * i, now;
 		MR_TRY(validate(ctx, x, at, &now));
-		if (now < least)
-			*exponent = at;
-		least = fmin(least, now);
+		if (!(now < least))
+			break;
+		*exponent = at;
+		least = now;
 	}
 	return MR_OK;
 }

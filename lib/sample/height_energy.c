@@ -9,7 +9,8 @@
 #include "base/sort.h"
 #include "solve/preconditioner.h"
 
-enum { GRAIN = 2048 };
+/* Less takes no longer than to start a thread. */
+enum { GRAIN = 1 << 14 };
 
 void
 mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e)

@@ -3,7 +3,8 @@
 
 #include "base/parallel.h"
 
-enum { GRAIN = 8192, PIECES = 128 };
+/* A thread takes TOGETHER pieces: it costs as much as some of them. */
+enum { GRAIN = 8192, PIECES = 128, TOGETHER = 8 };
 
 typedef struct multivector_job {
 	mr_multivector s;
@@ -21,12 +22,15 @@ typedef void rows_body(const multivector_job *j, size_t width, size_t begin, siz
 static inline void
 by_width(rows_body *body, const multivector_job *j, size_t begin, size_t end)
 {
-	if (j->s.width == 1)
-		body(j, 1, begin, end);
-	else if (j->s.width == 3)
-		body(j, 3, begin, end);
-	else
-		body(j, j->s.width, begin, end);
+	for (size_t to; begin < end; begin = to) {
+		to = end - begin < GRAIN ? end : begin + GRAIN;
+		if (j->s.width == 1)
+			body(j, 1, begin, to);
+		else if (j->s.width == 3)
+			body(j, 3, begin, to);
+		else
+			body(j, j->s.width, begin, to);
+	}
 }
 
 /* sum[c] = the sum over all rows, of which `body` leaves the partial sums. */
@@ -40,7 +44,7 @@ sum_pieces(const mr_ctx *ctx, multivector_job j, mr_body body, double *sum)
 	memset(sum, 0, j.s.width * sizeof *sum);
 	for (j.first = 0; j.first < n; j.first += batch) {
 		size_t rows = n - j.first < batch ? n - j.first : batch;
-		mr_parallel(ctx, rows, GRAIN, body, &j);
+		mr_parallel(ctx, rows, TOGETHER * GRAIN, body, &j);
 		for (size_t p = 0; p < (rows + GRAIN - 1) / GRAIN; p++)
 			for (size_t c = 0; c < j.s.width; c++)
 				sum[c] += partial[p][c];
@@ -117,7 +121,8 @@ void
 mr_multivector_add(
     const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, const double *g, double *y)
 {
-	mr_parallel(ctx, s.n, GRAIN, add_piece, &(multivector_job){ .s = s, .f = f, .g = g, .a = x, .y = y });
+	mr_parallel(ctx, s.n, TOGETHER * GRAIN, add_piece,
+	    &(multivector_job){ .s = s, .f = f, .g = g, .a = x, .y = y });
 }
 
 static inline void
@@ -137,7 +142,8 @@ scale_piece(void *arg, size_t begin, size_t end)
 void
 mr_multivector_scale(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y)
 {
-	mr_parallel(ctx, s.n, GRAIN, scale_piece, &(multivector_job){ .s = s, .f = f, .a = x, .y = y });
+	mr_parallel(
+	    ctx, s.n, TOGETHER * GRAIN, scale_piece, &(multivector_job){ .s = s, .f = f, .a = x, .y = y });
 }
 
 void
