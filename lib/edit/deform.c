@@ -223,9 +223,9 @@ pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_
 	mr_affine whole = mr_deform_map(maps, d->lowest);
 
 	for (size_t v = 0; v < d->nv; v++) {
-		mr_affine map = mr_deform_map(maps, d->region[v]);
-		if (!mr_is_identity(&map))
-			p[v] = mr_apply(&map, p[v]);
+		size_t h = d->region[v] - MR_REGION_HANDLE;
+		if (d->region[v] >= MR_REGION_HANDLE && h < maps->count && !mr_is_identity(&maps->t[h]))
+			p[v] = mr_apply(&maps->t[h], p[v]);
 	}
 	if (d->energies)
 		MR_TRY(mr_energies_follow(ctx, d->energies, &whole, p0, maps, p));
@@ -240,13 +240,11 @@ mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double started = mr_seconds();
-	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
 
-	memcpy(p, p0, d->nv * sizeof *p);
+	memcpy(out, p0, d->nv * sizeof *out);
 	if (maps)
 		MR_TRY(check_maps(ctx, d, maps));
-	MR_TRY(maps ? pose(ctx, d, p0, maps, p) : relax(ctx, d, p));
-	memcpy(out, p, d->nv * sizeof *out);
+	MR_TRY(maps ? pose(ctx, d, p0, maps, out) : relax(ctx, d, out));
 	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;

@@ -36,7 +36,7 @@ size_t mr_deform_handles(const mr_deform *d);
  * Poses the surface p0 by maps of the handles, p = T p0 + z, D^k z = 0 on the free vertices, or where an
  * energy has the differentials of p0 (deform_energy.h); maps NULL is the undeformed solve: constrained
  * vertices stay at p0, and D^k p = 0 on the free ones.  MR_ERANGE where a map has no vertex to move.  out:
- * nv, the caller's, may be p0.
+ * nv, the caller's, not p0.
  */
 mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out);
 

@@ -44,6 +44,7 @@ typedef struct turning {
 	double *moves;             /* how much it does of both, squared */
 	bool turns;                /* or stretches */
 	bool stretches;            /* beyond rounding */
+	bool whole_stays;
 	const struct energy *energy;
 } turning;
 
@@ -104,6 +105,7 @@ decompose_handle(turning *t, size_t j, mr_v3 w)
 static void
 decompose(mr_ctx *ctx, turning *t)
 {
+	const mr_mat3 none = mr_mat3_identity();
 	size_t n = t->e->count;
 	mr_v3 w;
 
@@ -113,6 +115,7 @@ decompose(mr_ctx *ctx, turning *t)
 	t->whole = linear_of(t, t->e->lowest);
 	t->rotation = mr_rotation_nearest(&t->whole);
 	t->stretch = mr_mat3_multiply_transposed(&t->rotation, &t->whole);
+	t->whole_stays = !memcmp(&t->whole, &none, sizeof none);
 	w = mr_rotation_log(&t->whole, turn_of(t->maps, t->e->lowest));
 	for (size_t j = 0; j < n; j++)
 		decompose_handle(t, j, w);
@@ -140,6 +143,8 @@ interpolate(const turning *t, size_t i)
 	for (size_t j = 0; j < t->e->count; j++)
 		w = mr_axpy(t->e->weight[t->e->count * i + j], t->log[j], w);
 	r = mr_rotation_exp(w);
+	if (t->whole_stays && !t->stretches)
+		return r;
 	r = mr_mat3_multiply(&t->rotation, &r);
 	return mr_mat3_multiply(&r, &s);
 }
@@ -156,12 +161,13 @@ static MR_INLINED void
 put_sources(const turning *t, size_t f, const mr_wide p[3])
 {
 	const double *cot = t->e->cot[f];
+	mr_wide a = cot[0] / 2 * (p[1] - p[2]), b = cot[1] / 2 * (p[2] - p[0]),
+		c = cot[2] / 2 * (p[0] - p[1]);
+	mr_wide *corner = t->e->corner + 3 * f;
 
-	for (int k = 0; k < 3; k++) {
-		int next = (k + 1) % 3, last = (k + 2) % 3;
-		t->e->corner[3 * f + (size_t)k] = cot[last] / 2 * (p[k] - p[next]) +
-		                                  cot[next] / 2 * (p[k] - p[last]);
-	}
+	corner[0] = c - b;
+	corner[1] = a - c;
+	corner[2] = b - a;
 }
 
 /* The place about which a face turns: the sections of several handles count by how much they turn there. */

@@ -283,30 +283,25 @@ mr_system_make(mr_ctx *ctx, const mr_mesh *rest, const mr_patch *patch, const mr
 	return set_up(ctx, s, rest, started);
 }
 
-/* T p, every bit kept by the identity, the sign of a zero too. */
-static mr_v3
-move(const mr_affine *t, mr_v3 p)
-{
-	return mr_is_identity(t) ? p : mr_apply(t, p);
-}
-
 /* p = T p0 + z: what is solved for is z. */
 mr_status
 mr_system_follow(
     mr_ctx *ctx, mr_deform_system *s, const mr_affine *whole, const mr_v3 *p0, const double *source, mr_v3 *p)
 {
 	mr_field f = mr_system_field(s, 3);
+	bool stays = mr_is_identity(whole); /* which keeps every bit, the sign of a zero too */
+	const uint32_t *v = s->patch.vertex;
 
 	f.source = source;
 	for (size_t i = s->patch.end[0]; i < s->patch.mesh.nv; i++) {
-		mr_v3 z = mr_sub(p[s->patch.vertex[i]], move(whole, p0[s->patch.vertex[i]]));
-		memcpy(f.u + 3 * i, (double[]){ z.x, z.y, z.z }, 3 * sizeof *f.u);
+		mr_v3 z = mr_sub(p[v[i]], stays ? p0[v[i]] : mr_apply(whole, p0[v[i]]));
+		memcpy(f.u + 3 * i, &z, sizeof z);
 	}
 	MR_TRY(mr_system_solve(ctx, s, &f));
 	for (size_t i = 0; i < s->patch.end[0]; i++) {
-		mr_v3 at = move(whole, p0[s->patch.vertex[i]]);
+		mr_v3 at = stays ? p0[v[i]] : mr_apply(whole, p0[v[i]]);
 		const double *z = f.u + 3 * i;
-		p[s->patch.vertex[i]] = mr_moved(at, mr_vec(z[0], z[1], z[2]));
+		p[v[i]] = mr_moved(at, mr_vec(z[0], z[1], z[2]));
 	}
 	return MR_OK;
 }
