@@ -56,14 +56,16 @@ match_parts(mr_ctx *ctx, const mr_mesh *then, const uint32_t *of, const mr_bvh *
 
 /* Parts that have lost over half of their area. */
 static void
-judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh, const mr_mesh *now, const uint32_t *of)
+judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, const uint32_t *of)
 {
 	const double half = 0.5;
 	double *was = MR_NEW_ZERO(ctx, then->nv, double), *is = MR_NEW_ZERO(ctx, then->nv, double),
 	       least = half;
 	mr_finding f = { .kind = MR_GONE, .layer = now->name, .vertex = MR_NO_VERTEX };
 	uint32_t *match;
+	mr_bvh *bvh;
 
+	mr_bvh_build(ctx, then, &bvh);
 	match_parts(ctx, then, of, bvh, now, &match);
 	add_areas(then, of, was);
 	add_areas(now, match, is);
@@ -82,20 +84,39 @@ judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh, const mr_mesh *
 		mr_found(ctx, &f);
 }
 
-static void
-judge_distance(
-    mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh_then, const mr_mesh *now, const mr_bvh *bvh)
+/* Some of the faces, evenly. */
+static mr_mesh
+thinned(mr_ctx *ctx, const mr_mesh *m)
 {
-	enum { SAMPLES = 4096 };
-	const double most = 0.05; /* of the diagonal */
-	double diagonal = mr_mesh_diagonal(then);
-	mr_mesh_gaps g = { .widest = 0 };
-	mr_mark mark = mr_mark_take(ctx);
+	enum { MOST = 8192 };
+	mr_mesh some = *m;
+	mr_tri *t = MR_NEW(ctx, MOST, mr_tri);
+
+	for (some.nf = 0; some.nf < MOST && some.nf < m->nf; some.nf++)
+		t[some.nf] = m->t[m->nf > MOST ? some.nf * m->nf / MOST : some.nf];
+	some.t = t;
+	return some;
+}
+
+/* Where all is near some of what was there, it is near all of that. */
+static void
+judge_distance(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, const mr_bvh *bvh)
+{
+	enum { SAMPLES = 2048 };
+	mr_mesh some = thinned(ctx, then);
+	double diagonal = mr_mesh_diagonal(then), most = 0.05 * diagonal;
+	mr_mesh_gaps g = { .widest = 0 }, near;
+	mr_bvh *bvh_then;
 
 	mr_gaps_add(ctx, then, bvh, SAMPLES, INFINITY, &g);
+	near = g;
+	mr_bvh_build(ctx, &some, &bvh_then);
+	mr_gaps_add(ctx, now, bvh_then, SAMPLES, INFINITY, &near);
+	if (!(near.widest > most))
+		return;
+	mr_bvh_build(ctx, then, &bvh_then);
 	mr_gaps_add(ctx, now, bvh_then, SAMPLES, INFINITY, &g);
-	mr_mark_release(ctx, mark);
-	if (g.widest > most * diagonal)
+	if (g.widest > most)
 		mr_found(ctx, &(mr_finding){ .kind = MR_DISTANT,
 				  .layer = now->name,
 				  .value = g.widest / diagonal,
@@ -106,8 +127,7 @@ judge_distance(
 
 /* Where what was there intersects already, a coarser surface has fewer pairs of it, or some more. */
 static void
-judge_intersections(
-    mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh_then, const mr_mesh *now, const mr_bvh *bvh)
+judge_intersections(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, const mr_bvh *bvh)
 {
 	enum { FEW = 5 };
 	bool *crosses = MR_NEW(ctx, now->nf, bool);
@@ -116,7 +136,7 @@ judge_intersections(
 	mr_self_intersections(ctx, bvh, now, crosses, &pairs);
 	if (pairs <= FEW)
 		return;
-	mr_self_intersections(ctx, bvh_then, then, NULL, &old);
+	mr_self_intersections(ctx, NULL, then, NULL, &old);
 	if (pairs <= FEW + 2 * old)
 		return;
 	while (!crosses[f])
@@ -133,18 +153,17 @@ judge_intersections(
 void
 mr_judge_remade(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
 {
-	mr_bvh *bvh_then, *bvh;
 	uint32_t *of;
 	bool several;
+	mr_bvh *bvh;
 
 	mr_components_label(ctx, then, &of, &several);
 	judge_size(ctx, then, now, several);
 	if (!(mr_mesh_area(ctx, then) > 0 && mr_mesh_area(ctx, now) > 0))
 		return;
-	mr_bvh_build(ctx, then, &bvh_then);
 	if (several)
-		judge_parts(ctx, then, bvh_then, now, of);
+		judge_parts(ctx, then, now, of);
 	mr_bvh_build(ctx, now, &bvh);
-	judge_distance(ctx, then, bvh_then, now, bvh);
-	judge_intersections(ctx, then, bvh_then, now, bvh);
+	judge_distance(ctx, then, now, bvh);
+	judge_intersections(ctx, then, now, bvh);
 }
