@@ -49,8 +49,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_remesh_result, flipped),
 	CMD_COUNTED(mr_remesh_result, folded),
 	CMD_COUNTED(mr_remesh_result, sharp_edges),
-	CMD_MEASURED(mr_remesh_result, seconds_rounds),
-	CMD_MEASURED(mr_remesh_result, seconds_areas),
 	{ 0 },
 };
 

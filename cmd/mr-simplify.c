@@ -21,10 +21,6 @@ static const cmd_opt table[] = {
 };
 
 static const cmd_field figures[] = {
-	CMD_MEASURED(mr_simplify_result, seconds_begin),
-	CMD_MEASURED(mr_simplify_result, seconds_merge),
-	CMD_COUNTED(mr_simplify_result, computed),
-	CMD_COUNTED(mr_simplify_result, refused),
 	CMD_COUNTED(mr_simplify_result, merges),
 	CMD_MEASURED(mr_simplify_result, error),
 	CMD_COUNTED(mr_simplify_result, vertices),

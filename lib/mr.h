@@ -298,7 +298,7 @@ typedef struct mr_smooth_opts {
 #define MR_SMOOTH_DEFAULTS MR_DEFAULTS(MR_SMOOTH_IMPLICIT, 10, 0, false, NULL)
 
 typedef struct mr_smooth_result {
-	size_t passes, boundary_vertices;
+	size_t passes;
 	size_t bounded;    /* vertices that were smoothed for less time, because the body is thin there */
 	size_t iterations; /* of the implicit system, in all passes */
 	double mean_edge;
@@ -332,7 +332,6 @@ typedef struct mr_remesh_result {
 	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
 	size_t flipped, folded; /* faces against the input; edges */
 	size_t sharp_edges; /* of the input: they are kept */
-	double seconds_rounds, seconds_areas;
 } mr_remesh_result;
 
 MR_API mr_status mr_remesh_frame(
@@ -567,11 +566,10 @@ typedef struct mr_simplify_opts {
 #define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, false, NULL, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
-	size_t vertices, faces;           /* of the result */
-	size_t computed, refused, merges; /* edges: costs computed, collapses refused and made */
-	size_t creases;                   /* edges of the result that are marked to be sharp */
-	double error;                     /* the largest that was made */
-	double seconds_begin, seconds_merge;
+	size_t vertices, faces; /* of the result */
+	size_t merges;          /* of edges */
+	size_t creases;         /* edges of the result that are marked to be sharp */
+	double error;           /* the largest that was made */
 } mr_simplify_result;
 
 MR_API mr_status mr_simplify_frame(

@@ -51,17 +51,15 @@ study_vertices(smoothing *s)
 {
 	/* of the mean: so no vertex has no mass; 13 models are the same with 1e-12 and with 1e-4 */
 	static const double smallest = 1e-8;
-	size_t n = s->m->nv, boundary = 0;
+	size_t n = s->m->nv;
 	double mean = 0;
 
 	for (size_t v = 0; v < n; v++) {
-		boundary += s->stays[v];
 		s->stays[v] |= s->l.value[mr_sparse_find(&s->l, (int)v, (int)v)] == 0;
 		mean += s->area[v] / (double)n;
 	}
 	for (size_t v = 0; v < n; v++)
 		s->area[v] = fmax(s->area[v], smallest * mean);
-	s->found.boundary_vertices = boundary;
 }
 
 /*
@@ -135,12 +133,6 @@ residual_of(const mr_ctx *ctx, const smoothing *s, const double *mass, const mr_
 		r[v] = s->stays[v] ? mr_vec(0, 0, 0) : mr_sub(mr_mul(mass[v], p[v]), r[v]);
 }
 
-static void
-apply(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y)
-{
-	mr_sparse_apply(ctx, a, NULL, s.n, s.width, x, y);
-}
-
 /* A pass of time t solves for the motion z: (M / t + L) z = -L p, which is p' = p + z. */
 static mr_status
 implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
@@ -151,7 +143,7 @@ implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
 	mr_v3 *z = MR_NEW(ctx, rows.n, mr_v3), *r = MR_NEW(ctx, rows.n, mr_v3);
 	mr_preconditioner b;
 	/* with 1e-6 a quarter fewer iterations, but a symmetric model is so only to 1e-8 */
-	mr_cg cg = { .s = rows, .apply = apply, .a = &s->l, .b = &b, .tol = 1e-8 };
+	mr_cg cg = { .s = rows, .apply = mr_cg_apply, .a = &s->l, .b = &b, .tol = 1e-8 };
 
 	MR_TRY(mr_incomplete_new(ctx, &s->l, true, &b));
 	for (size_t i = 0; i < s->found.passes; i++) {

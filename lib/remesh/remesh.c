@@ -31,7 +31,6 @@ typedef struct remesher {
 	size_t sharp;   /* edges of the input */
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
-	double seconds_rounds, seconds_areas;
 } remesher;
 
 static double
@@ -352,7 +351,7 @@ run(remesher *r)
 	enum {
 		SETTLED = 2
 	}; /* the rounds before make the density what it is to be, which may be less even */
-	double start = mr_seconds(), middle, before = INFINITY, after, had = 1;
+	double before = INFINITY, after, had = 1;
 	size_t rounds = r->o->rounds;
 
 	if (rounds > 0)
@@ -376,11 +375,7 @@ run(remesher *r)
 			MR_TRY(tidy(r)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(rounds + 1));
 	}
-	middle = mr_seconds();
-	r->seconds_rounds = middle - start;
-	MR_TRY(equalize_areas(r));
-	r->seconds_areas = mr_seconds() - middle;
-	return MR_OK;
+	return equalize_areas(r);
 }
 
 typedef struct mapping {
@@ -428,9 +423,7 @@ report(const remesher *r)
 		.area_variance_after = r->variance[1],
 		.flipped = r->flaws.flipped,
 		.folded = r->flaws.folded,
-		.sharp_edges = r->sharp,
-		.seconds_rounds = r->seconds_rounds,
-		.seconds_areas = r->seconds_areas };
+		.sharp_edges = r->sharp };
 }
 
 mr_status

@@ -29,7 +29,7 @@ typedef struct simplifier {
 	size_t target;     /* faces to stop at; 0: no such limit */
 	double limit;      /* error to stop at; infinite: no such limit */
 	size_t most;       /* faces for whose sake more is merged than there is room for */
-	size_t faces, merges, computed, refused;
+	size_t faces, merges;
 	double error2; /* greatest of the merges done */
 	double needle; /* least shape of a face */
 } simplifier;
@@ -163,7 +163,6 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		enqueue(s, h, now);
 		return;
 	}
-	s->computed++;
 	if (!mr_merge_finish(&s->d, s->site, &m) || m.error2 > limit * limit)
 		return;
 	now = mr_bucket_of((float)m.cost);
@@ -173,8 +172,6 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 	}
 	if (mr_dyn_can_collapse(&s->d, h, s->mark) && mr_merge_is_sound(&s->d, &m, s->needle))
 		merge(s, h, &m);
-	else
-		s->refused++;
 }
 
 /* Lets errors be larger, where there are more faces than the most, or needles be thinner; each once, for the
@@ -346,7 +343,7 @@ mr_status
 mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto,
     mr_simplify_result *result)
 {
-	double diagonal = mr_mesh_diagonal(m), start = mr_seconds(), begun, ended;
+	double diagonal = mr_mesh_diagonal(m);
 	simplifier s = { .ctx = ctx,
 		.o = opts,
 		.needle = MR_NEEDLE,
@@ -359,14 +356,9 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 		                                : opts->error };
 
 	MR_TRY(begin(&s, m));
-	begun = mr_seconds();
 	merge_all(&s);
-	ended = mr_seconds();
 	finish(&s, m, out, onto);
-	if (out->nf > s.target && s.target && s.most)
-		mr_note(ctx, "%s: %zu faces are left, not %zu: fewer would be too far off", m->name, out->nf,
-		    s.target);
-	else if (out->nf > s.target && s.target && !isfinite(s.limit))
+	if (out->nf > s.target && s.target && !s.most && !isfinite(s.limit))
 		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
 				  .layer = m->name,
 				  .what = mr_format(ctx,
@@ -376,11 +368,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 	if (result)
 		*result = (mr_simplify_result){ .vertices = out->nv,
 			.faces = out->nf,
-			.computed = s.computed,
-			.refused = s.refused,
 			.merges = s.merges,
-			.error = sqrt(s.error2) / s.scale,
-			.seconds_begin = begun - start,
-			.seconds_merge = ended - begun };
+			.error = sqrt(s.error2) / s.scale };
 	return MR_OK;
 }

@@ -1,5 +1,12 @@
 /* Hestenes, Stiefel 1952: Methods of conjugate gradients for solving linear systems. */
 #include "solve/preconditioner.h"
+#include "solve/sparse.h"
+
+void
+mr_cg_apply(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y)
+{
+	mr_sparse_apply(ctx, a, NULL, s.n, s.width, x, y);
+}
 
 mr_status
 mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterations)

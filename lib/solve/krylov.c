@@ -89,18 +89,12 @@ krylov_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_repor
 
 /* Conjugate gradients */
 
-static void
-apply_stored(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y)
-{
-	mr_sparse_apply(ctx, a, NULL, s.n, s.width, x, y);
-}
-
 static mr_status
 cg_iterate(
     mr_ctx *ctx, krylov *k, mr_multivector s, const double *goal, double *x, double *r, size_t *iterations)
 {
 	mr_cg g = {
-		.s = s, .apply = apply_stored, .a = k->a, .b = &k->b, .goal = goal, .most = k->opts.iterations
+		.s = s, .apply = mr_cg_apply, .a = k->a, .b = &k->b, .goal = goal, .most = k->opts.iterations
 	};
 
 	return mr_cg_improve(ctx, &g, x, r, iterations);

@@ -56,6 +56,9 @@ typedef struct mr_cg {
 	size_t most; /* iterations */
 } mr_cg;
 
+/* For a matrix that is stored, a mr_sparse. */
+void mr_cg_apply(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y);
+
 /*
  * Improves x, r = b - A x being its residual, until the goal is reached in each column, *iterations is
  * `most`, or no column has a direction left that A sees.  x, r: s.n rows of s.width, the caller's; both are

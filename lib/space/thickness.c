@@ -3,6 +3,7 @@
 #include "space/thickness.h"
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "space/bvh.h"
 
 typedef struct caster {
@@ -10,8 +11,7 @@ typedef struct caster {
 	const mr_bvh *bvh;
 	const mr_v3 *normal; /* of the vertices */
 	double least, most;  /* where a ray begins and ends */
-	bool *wanted;        /* of each face: whether a ray is cast from it */
-	double *across;      /* of each face; INFINITY: not known */
+	double *across;      /* of each face; NAN: to be cast, INFINITY: not known */
 } caster;
 
 /* The mean of the corners' normals; zero where they cancel. */
@@ -29,7 +29,7 @@ cast_faces(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		uint32_t f = mr_bvh_order(c->bvh)[i];
-		if (!c->wanted[f] || isfinite(c->across[f]))
+		if (!isnan(c->across[f]))
 			continue;
 		c->across[f] = mr_bvh_across(c->bvh, mr_place_point(c->m, (mr_place){ f, centre }),
 		    direction_of(c, c->m->t[f].v), c->least, c->most);
@@ -42,9 +42,8 @@ want_some(const caster *c, bool *taken)
 {
 	for (size_t f = 0; f < c->m->nf; f++) {
 		const uint32_t *v = c->m->t[f].v;
-		c->across[f] = INFINITY;
-		c->wanted[f] = !taken[v[0]] && !taken[v[1]] && !taken[v[2]];
-		if (c->wanted[f])
+		c->across[f] = taken[v[0]] || taken[v[1]] || taken[v[2]] ? INFINITY : NAN;
+		if (isnan(c->across[f]))
 			taken[v[0]] = taken[v[1]] = taken[v[2]] = true;
 	}
 }
@@ -61,7 +60,8 @@ want_thin(const caster *c, const mr_incidence *inc)
 		if (c->across[f] < fmin(c->most, edges / 2 * sides))
 			for (int k = 0; k < 3; k++)
 				for (size_t i = inc->start[v[k]]; i < inc->start[v[k] + 1]; i++)
-					c->wanted[inc->face[i]] = true;
+					if (c->across[inc->face[i]] == INFINITY)
+						c->across[inc->face[i]] = NAN;
 	}
 }
 
@@ -70,20 +70,13 @@ static double
 median_around(const mr_incidence *inc, size_t v, const double *across, double most)
 {
 	enum { AROUND = 64 }; /* of more faces these */
-	double sorted[AROUND];
+	double known[AROUND];
 	size_t n = 0;
 
-	for (size_t i = inc->start[v]; i < inc->start[v + 1] && n < AROUND; i++) {
-		double x = across[inc->face[i]];
-		size_t k = n;
-		if (!isfinite(x))
-			continue;
-		for (; k > 0 && sorted[k - 1] > x; k--)
-			sorted[k] = sorted[k - 1];
-		sorted[k] = x;
-		n++;
-	}
-	return n ? fmin(sorted[(n - 1) / 2], most) : most;
+	for (size_t i = inc->start[v]; i < inc->start[v + 1] && n < AROUND; i++)
+		if (across[inc->face[i]] < INFINITY)
+			known[n++] = across[inc->face[i]];
+	return n ? mr_kth(known, n, (n - 1) / 2) : most;
 }
 
 /* thickness[a] <= thickness[b] + |a - b| over the edges of a face; true where that lowered one. */
@@ -141,7 +134,6 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	mr_bvh_build(ctx, m, &bvh);
 	c.bvh = bvh;
 	c.least = mr_mesh_tolerance(m, 1e-9); /* none meets the face that it leaves */
-	c.wanted = MR_NEW(ctx, m->nf, bool);
 	want_some(&c, MR_NEW_ZERO(ctx, m->nv, bool));
 	mr_parallel(ctx, m->nf, 256, cast_faces, &c);
 	want_thin(&c, &inc);

@@ -14,7 +14,7 @@ case_of() { # model: remeshes base.mrs
 	model=$1
 	for i in 1 2 3; do
 		mr-remesh --stats stats.json base.mrs -o out.mrs || exit
-		echo "$(figure seconds_rounds stats.json) $(figure seconds_areas stats.json)" | awk '{ print $1 + $2 }'
+		figure seconds stats.json
 	done | median >ours
 	mr-info --json -l base out.mrs >ours.json
 	echo "$model-seconds mr $(cat ours) s"

@@ -19,7 +19,7 @@ case_of() { # model: simplifies in.mrs
 	model=$1
 	for i in 1 2 3; do
 		mr-simplify -n 2000 --stats stats.json in.mrs -o out.mrs || exit
-		echo "$(figure seconds_begin stats.json) $(figure seconds_merge stats.json)" | awk '{ print $1 + $2 }'
+		figure seconds stats.json
 	done | median >ours
 	echo "$model-seconds mr $(cat ours) s"
 	describe mr out.mrs
