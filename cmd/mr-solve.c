@@ -66,7 +66,7 @@ solve_frame(cmd *c, mr_frame *f)
 {
 	mr_solve_result result;
 
-	MR_TRY(mr_solve_frame(&c->ctx, f, &opts, c->cache, &result));
+	MR_TRY(mr_solve_frame(&c->ctx, f, &opts, c->cache, c->stats ? &result : NULL));
 	cmd_figures(c, figures, &result);
 	return MR_OK;
 }

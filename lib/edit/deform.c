@@ -149,6 +149,12 @@ mr_deform_handles(const mr_deform *d)
 
 /* Figures */
 
+void
+mr_deform_measures(mr_deform *d, bool residual)
+{
+	d->system.measures = residual;
+}
+
 mr_solve_result
 mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 {
@@ -163,8 +169,7 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 
 	if (s->solver)
 		r = mr_solver_reported(s->solver);
-	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", s->patch.end[0], d->fixed,
-	    d->handled, s->residual);
+	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices", s->patch.end[0], d->fixed, d->handled);
 	if (s->solver && iterates)
 		mr_note(ctx, "%zu iterations", r.iterations);
 	if (!iterates && r.rcond > 0 && r.rcond < worst)

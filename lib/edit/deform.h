@@ -23,8 +23,10 @@ typedef struct mr_deform mr_deform;
 mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
     const mr_deform_opts *opts, mr_deform **deform) MR_WARN_UNUSED;
 
-/* The figures of the set-up and of the last solve; remarks on what the user should know. */
+/* The figures of the set-up and of the last solve; remarks on what the user should know.  The residual is 0
+ * but after mr_deform_measures(d, true). */
 mr_solve_result mr_deform_report(mr_ctx *ctx, const mr_deform *d);
+void mr_deform_measures(mr_deform *d, bool residual);
 
 /* The regions: one per vertex, d's. */
 const uint32_t *mr_deform_region(const mr_deform *d);

@@ -261,11 +261,14 @@ mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f)
 	double scale;
 
 	find_residual(ctx, s, f);
-	scale = norm_of(f->r, n);
+	scale = s->measures ? norm_of(f->r, n) : 0;
 	MR_TRY(mr_solver_solve(ctx, s->solver, f->r, f->width));
 	add_free(s, f);
+	s->residual = 0;
+	if (!(scale > 0))
+		return MR_OK;
 	find_residual(ctx, s, f);
-	s->residual = scale > 0 ? norm_of(f->r, n) / scale : 0;
+	s->residual = norm_of(f->r, n) / scale;
 	return MR_OK;
 }
 

@@ -89,18 +89,6 @@ read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **col
 	return MR_OK;
 }
 
-static mr_status
-check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
-{
-	size_t v = mr_first_infinite((const double *)p, 3 * m->nv) / 3;
-
-	return v == m->nv ? MR_OK
-	                  : mr_fail(ctx, MR_ERANGE,
-				"%s: vertex %zu goes beyond all numbers: its coordinates, or those of its "
-				"handles, are too large",
-				m->name, v);
-}
-
 /* Nothing is to be solved for: the positions are those of rest. */
 static mr_status
 keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
@@ -111,7 +99,8 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	if (mr_transfer_applies(f, m->name))
 		MR_TRY(mr_layer_put(ctx, f, m->name, "region", region, m->nv));
 	mr_note(ctx, "%s stays as it is: nothing poses it", m->name);
-	mr_unmeasured(result, sizeof *result);
+	if (result)
+		mr_unmeasured(result, sizeof *result);
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
 }
 
@@ -134,6 +123,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 	const char *layer, *column;
 	mr_deform_maps *maps;
 	mr_deform_opts opts;
+	mr_solve_result report;
 	mr_mesh m, rest;
 	mr_deform *d;
 	bool posing;
@@ -150,11 +140,16 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 	MR_TRY(read_rest(ctx, f, posing, &rest, &column));
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	MR_TRY(mr_deform_cache_get(kept, ctx, f, &rest, column, &opts, &d));
+	mr_deform_measures(d, result != NULL);
 	if (posing || o->flatten)
 		MR_TRY(mr_deform_solve(ctx, d, m.p, maps, p));
 	else
 		memcpy(p, m.p, m.nv * sizeof *p);
-	MR_TRY(check_solution(ctx, &m, p));
+	if (mr_first_infinite((const double *)p, 3 * m.nv) < 3 * m.nv)
+		return mr_fail(ctx, MR_ERANGE,
+		    "%s: vertices go beyond all numbers: their coordinates, or those of its handles, are too "
+		    "large",
+		    layer);
 	MR_TRY(keep_encoded(ctx, f, &m, posing));
 	if (posing) {
 		MR_TRY(mr_detail_keep_before(ctx, f, &m));
@@ -164,7 +159,9 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 		MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
 	if (o->basis)
 		MR_TRY(mr_deform_put_basis(ctx, f, &m, d, p));
-	*result = mr_deform_report(ctx, d);
+	report = mr_deform_report(ctx, d);
+	if (result)
+		*result = report;
 	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);
 }
 
@@ -175,5 +172,6 @@ mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *ca
 	mr_solve_result r;
 
 	MR_ON_COPY(ctx, f, done, result, r,
-	    solve(ctx, &done, opts ? opts : &defaults, &mr_cache_for(ctx, cache)->deform, &r));
+	    solve(
+		ctx, &done, opts ? opts : &defaults, &mr_cache_for(ctx, cache)->deform, result ? &r : NULL));
 }
