@@ -23,6 +23,7 @@ typedef struct layer {
 	mr_v3 *seen;      /* the same then */
 	bool *moves;      /* control faces whose surface had moved */
 	bool *crosses;    /* its faces that pass through others */
+	mr_loop_tree *tree;
 } layer;
 
 struct mr_fit_guard {
@@ -98,7 +99,7 @@ look_at(mr_ctx *ctx, layer *y)
 	if (y->level > 0)
 		refine(ctx, y);
 	find_moves(y);
-	mr_find_crossings(ctx, y->g->level, y->level, y->to, y->moves, y->crosses);
+	mr_find_crossings(ctx, y->tree, y->to, y->moves, y->crosses);
 }
 
 static mr_status
@@ -127,7 +128,7 @@ layer_new(mr_ctx *ctx, guard *g, size_t level, double closed, layer *y)
 
 	*y = (layer){ g, level, closed, MR_NEW(ctx, nv, mr_v3), MR_NEW(ctx, nv, mr_v3),
 		MR_NEW(ctx, nv, mr_v3), MR_NEW(ctx, g->level[0].nf, bool),
-		MR_NEW_ZERO(ctx, g->level[level].nf, bool) };
+		MR_NEW_ZERO(ctx, g->level[level].nf, bool), mr_loop_tree_new(ctx, g->level, level) };
 	memset(y->seen, 0xff, nv * sizeof *y->seen); /* nowhere */
 }
 

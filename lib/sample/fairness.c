@@ -15,7 +15,7 @@
 
 #include <float.h>
 
-enum { GRAIN = 1 << 14 };
+enum { GRAIN = 1 << 15 };
 
 typedef struct means {
 	const mr_adjacency *adj;

@@ -10,7 +10,7 @@
 #include "solve/preconditioner.h"
 
 /* Less takes no longer than to start a thread. */
-enum { GRAIN = 1 << 14 };
+enum { GRAIN = 1 << 15 };
 
 void
 mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e)

@@ -27,6 +27,7 @@ typedef struct fit {
 	float *pull;     /* how much each counts */
 	bool *bad;       /* faces that fold or cross others */
 	bool *crosses;   /* faces that cross others */
+	mr_loop_tree *tree;
 	bool *near;      /* vertices around such faces, which are fitted again */
 	bool local;      /* only these */
 	mr_mesh surface; /* the displaced one */
@@ -164,6 +165,19 @@ beyond(mr_v3 a, mr_v3 b, double cosine)
 	return !(mr_dot(a, b) > cosine * mr_norm(a) * mr_norm(b));
 }
 
+/* Whether the face, or one beside it, may have moved. */
+static bool
+is_due(const fit *x, uint32_t f)
+{
+	const uint32_t *twin = x->d->level[x->d->n].topo.twin;
+	bool due = !x->local || x->bad[f] || x->crosses[f];
+
+	for (uint32_t h = 3 * f; h < 3 * f + 3 && !due; h++)
+		due = x->near[mr_he_from(&x->surface, h)] ||
+		      (twin[h] != MR_NONE && x->near[mr_he_to(&x->surface, mr_he_next(twin[h]))]);
+	return due;
+}
+
 /* True where the face has turned from the domain's, is folded against one beside it, or passes through one.
  */
 static bool
@@ -187,7 +201,8 @@ look(void *arg, size_t begin, size_t end)
 	const fit *x = arg;
 
 	for (size_t f = begin; f < end; f++)
-		x->bad[f] = is_bad(x, (uint32_t)f);
+		if (is_due(x, (uint32_t)f))
+			x->bad[f] = is_bad(x, (uint32_t)f);
 }
 
 static size_t
@@ -352,6 +367,7 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 	x->pull = MR_NEW(ctx, d->m.nv, float);
 	x->bad = MR_NEW(ctx, d->m.nf, bool);
 	x->crosses = MR_NEW_ZERO(ctx, d->m.nf, bool);
+	x->tree = mr_loop_tree_new(ctx, d->level, d->n);
 	x->near = MR_NEW(ctx, d->m.nv, bool);
 	for (size_t i = 0; i < c->n; i++)
 		x->wish[i].face = c->face[i];
@@ -414,7 +430,7 @@ find_bad(mr_ctx *ctx, fit *x, size_t *folds)
 		for (int k = 0; k < 3; k++)
 			moved[f / parts] |= x->near[x->surface.t[f].v[k]];
 	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-	mr_find_crossings(ctx, x->d->level, x->d->n, x->p, moved, x->crosses);
+	mr_find_crossings(ctx, x->tree, x->p, moved, x->crosses);
 	*folds = find_folds(ctx, x);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -23,19 +23,20 @@ typedef struct node {
 	float axis[3], angle;
 } node;
 
-typedef struct tree {
+struct mr_loop_tree {
 	const mr_loop *level;
 	size_t n;
 	const mr_v3 *p;
-	mr_v3 center;       /* of the surface's box */
-	double unit;        /* about one over its size */
+	mr_v3 center;       /* of the surface's box when all of it was looked at first */
+	double unit;        /* about one over its size; 0 before */
 	node *node[LEVELS]; /* of the triangles of each level */
 	mr_mesh roots;      /* of the triangles of level 0 ones with their boxes */
 	mr_bvh *bvh;        /* over these */
-	size_t level_of_job;
-	const bool *moved; /* triangles of level 0; NULL: all */
+	const bool *moved;  /* triangles of level 0; NULL: all */
 	bool *crosses;
-} tree;
+};
+
+typedef mr_loop_tree tree;
 
 /* A float that is not greater than x, which is at most about 1: rounding, twice, is within a quarter of that.
  */
@@ -112,17 +113,19 @@ join(const node *part, node *d)
 			d->angle = fmaxf(d->angle, part[k].angle + angle_between(d->axis, part[k].axis));
 }
 
+/* Those of the triangles of level 0 that have moved, and of their parts. */
 static void
 make_nodes(void *arg, size_t begin, size_t end)
 {
 	const tree *x = arg;
-	size_t k = x->level_of_job;
 
-	for (size_t f = begin; f < end; f++)
-		if (k == x->n)
-			make_leaf(x, (uint32_t)f, &x->node[k][f]);
-		else
-			join(&x->node[k + 1][4 * f], &x->node[k][f]);
+	for (size_t root = begin; root < end; root++)
+		for (size_t k = x->moved && !x->moved[root] ? 0 : x->n + 1; k-- > 0;)
+			for (size_t f = root << 2 * k; f < (root + 1) << 2 * k; f++)
+				if (k == x->n)
+					make_leaf(x, (uint32_t)f, &x->node[k][f]);
+				else
+					join(&x->node[k + 1][4 * f], &x->node[k][f]);
 }
 
 static bool
@@ -302,21 +305,30 @@ index_roots(mr_ctx *ctx, tree *x)
 	mr_bvh_build(ctx, &x->roots, &x->bvh);
 }
 
+mr_loop_tree *
+mr_loop_tree_new(mr_ctx *ctx, const mr_loop *level, size_t n)
+{
+	tree *x = MR_NEW_ZERO(ctx, 1, tree);
+
+	x->level = level;
+	x->n = n;
+	for (size_t k = 0; k <= n; k++)
+		x->node[k] = MR_NEW(ctx, level[k].nf, node);
+	return x;
+}
+
 void
-mr_find_crossings(
-    mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, const bool *moved, bool *crosses)
+mr_find_crossings(mr_ctx *ctx, mr_loop_tree *x, const mr_v3 *p, const bool *moved, bool *crosses)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	tree x = { .level = level, .n = n, .p = p, .moved = moved, .crosses = crosses };
 
-	choose_units(&x);
-	for (size_t k = 0; k <= n; k++)
-		x.node[k] = MR_NEW(ctx, level[k].nf, node);
-	for (size_t k = n + 1; k-- > 0;) {
-		x.level_of_job = k;
-		mr_parallel(ctx, level[k].nf, 4096, make_nodes, &x);
-	}
-	index_roots(ctx, &x);
-	mr_parallel(ctx, level[0].nf, GRAIN, search, &x);
+	x->p = p;
+	x->moved = moved;
+	x->crosses = crosses;
+	if (!moved || !(x->unit > 0))
+		choose_units(x);
+	mr_parallel(ctx, x->level[0].nf, GRAIN, make_nodes, x);
+	index_roots(ctx, x);
+	mr_parallel(ctx, x->level[0].nf, GRAIN, search, x);
 	mr_mark_release(ctx, mark);
 }

@@ -73,7 +73,7 @@ smooth_surfaces_have_none(void **state)
 	bool *crosses = MR_NEW(&ctx, d.m.nf, bool);
 
 	(void)state;
-	mr_find_crossings(&ctx, d.level, LEVEL, d.m.p, NULL, crosses);
+	mr_find_crossings(&ctx, mr_loop_tree_new(&ctx, d.level, LEVEL), d.m.p, NULL, crosses);
 	assert_int_equal(check_all_pairs(&d.m, crosses), 0);
 }
 
@@ -95,7 +95,7 @@ dents_that_reach_through(void **state)
 			p[v] = mr_vec(unit[k] * (q.x - push) + offset[k], unit[k] * q.y, unit[k] * q.z);
 		}
 		d.m.p = p;
-		mr_find_crossings(&ctx, d.level, LEVEL, p, NULL, crosses);
+		mr_find_crossings(&ctx, mr_loop_tree_new(&ctx, d.level, LEVEL), p, NULL, crosses);
 		assert_true(check_all_pairs(&d.m, crosses) > 20);
 	}
 }
@@ -109,11 +109,12 @@ what_moved_is_enough(void **state)
 	size_t roots = d.level[0].nf, parts = d.m.nf / roots, most = 0;
 	mr_v3 *p = MR_NEW(&ctx, d.m.nv, mr_v3);
 	bool *crosses = MR_NEW(&ctx, d.m.nf, bool), *all = MR_NEW(&ctx, d.m.nf, bool);
+	mr_loop_tree *tree = mr_loop_tree_new(&ctx, d.level, LEVEL);
 	bool *moved = MR_NEW(&ctx, roots, bool);
 
 	(void)state;
 	memcpy(p, d.m.p, d.m.nv * sizeof *p);
-	mr_find_crossings(&ctx, d.level, LEVEL, p, NULL, crosses);
+	mr_find_crossings(&ctx, tree, p, NULL, crosses);
 	for (int step = 0; step < 12; step++) {
 		size_t count = 0;
 		memset(moved, 0, roots * sizeof *moved);
@@ -127,8 +128,8 @@ what_moved_is_enough(void **state)
 					moved[g / parts] |= d.m.t[g].v[k] == v;
 		}
 		ctx.threads = step % 2 ? 1 : 2;
-		mr_find_crossings(&ctx, d.level, LEVEL, p, moved, crosses);
-		mr_find_crossings(&ctx, d.level, LEVEL, p, NULL, all);
+		mr_find_crossings(&ctx, tree, p, moved, crosses);
+		mr_find_crossings(&ctx, mr_loop_tree_new(&ctx, d.level, LEVEL), p, NULL, all);
 		assert_memory_equal(crosses, all, d.m.nf * sizeof *all);
 		for (size_t f = 0; f < d.m.nf; f++)
 			count += all[f];
@@ -147,7 +148,7 @@ what_shrank_to_a_point_is_soon_told(void **state)
 	bool *crosses = MR_NEW(&ctx, l->nf, bool);
 
 	(void)state;
-	mr_find_crossings(&ctx, d.level, LEVEL, p, NULL, crosses);
+	mr_find_crossings(&ctx, mr_loop_tree_new(&ctx, d.level, LEVEL), p, NULL, crosses);
 	for (size_t f = 0; f < l->nf; f++)
 		assert_false(crosses[f]);
 }
