@@ -23,10 +23,10 @@ typedef struct fit {
 	const mr_sample_cloud *c;
 	const mr_fit_weights *weights;
 	mr_heights *e;
-	double *target;  /* heights to be pulled to */
-	float *pull;     /* how much each counts */
-	bool *bad;       /* faces that fold or cross others */
-	bool *crosses;   /* faces that cross others */
+	double *target; /* heights to be pulled to */
+	float *pull;    /* how much each counts */
+	bool *bad;      /* faces that fold or cross others */
+	bool *crosses;  /* faces that cross others */
 	mr_loop_tree *tree;
 	bool *near;      /* vertices around such faces, which are fitted again */
 	bool local;      /* only these */

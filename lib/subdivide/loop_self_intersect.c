@@ -131,10 +131,11 @@ make_nodes(void *arg, size_t begin, size_t end)
 static bool
 apart(const node *a, const node *b)
 {
-	for (int i = 0; i < 3; i++)
-		if (a->hi[i] < b->lo[i] || b->hi[i] < a->lo[i])
-			return true;
-	return false;
+	bool is = false;
+
+	for (int i = 0; i < 3; i++) /* without branches, which could not be foretold */
+		is |= (a->hi[i] < b->lo[i]) | (b->hi[i] < a->lo[i]);
+	return is;
 }
 
 static bool
@@ -195,7 +196,7 @@ test_pair(const tree *x, size_t k, uint32_t f, uint32_t g)
 	if (agree(a, b) && touch(t[f], t[g]))
 		return;
 	for (uint32_t i = 4 * f; i < 4 * f + 4; i++)
-		for (uint32_t j = 4 * g; j < 4 * g + 4; j++)
+		for (uint32_t j = apart(&x->node[k + 1][i], b) ? 4 * g + 4 : 4 * g; j < 4 * g + 4; j++)
 			test_pair(x, k + 1, i, j);
 }
 

@@ -66,7 +66,8 @@ see(const mr_walls *w, mr_v3 p, wall *of)
 	of->area += (double)w->area[i];
 }
 
-/* A few points that stand for much area are as likely strewn as of a surface: they count as others do, at most. */
+/* A few points that stand for much area are as likely strewn as of a surface: they count as others do, at
+ * most. */
 static bool
 is_supported(const mr_walls *w, const wall *of)
 {
