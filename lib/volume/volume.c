@@ -15,7 +15,6 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "space/near.h"
 #include "volume/parts.h"
 
 enum {
@@ -581,17 +580,15 @@ are_consistent(const mr_volume_sides *j, bool normals)
 	return j->told > 0 && j->alike >= ALIKE_LEAST && (!normals || j->near >= NEAR_LEAST);
 }
 
-/* What is known of the sides of the points that count, if it fits them. */
-static mr_status
-take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *sides, volume *v)
+/* What is known of the sides of the points that count, index of each place, if it fits them. */
+static void
+take_sides(mr_ctx *ctx, const uint32_t *index, size_t places, const mr_outer_sides *sides, volume *v)
 {
 	mr_v3 *toward = MR_NEW(ctx, v->s.n, mr_v3);
-	uint32_t *of = MR_NEW(ctx, v->s.n, uint32_t);
 	mr_volume_sides judged;
 
-	MR_TRY(mr_near_once(ctx, point, n, v->s.p, v->s.n, 1, of, NULL));
 	for (size_t i = 0; i < v->s.n; i++)
-		toward[i] = sides->toward[of[i]];
+		toward[i] = sides->toward[index[i * places / v->s.n]];
 	judged = mr_volume_judge(&v->s, toward);
 	v->found.sided = 0;
 	if (!are_consistent(&judged, sides->normals)) {
@@ -601,11 +598,10 @@ take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *side
 			.what = sides->normals
 		                    ? "the normals of the points contradict their places, and are not used"
 		                    : "the places of the scanner contradict the points, and are not used" });
-		return MR_OK;
+		return;
 	}
 	v->found.sided = judged.told;
 	v->side = (mr_outer_sides){ toward, sides->normals };
-	return MR_OK;
 }
 
 /* v->s of what counts of n points; *places: how many these are. */
@@ -613,12 +609,15 @@ static mr_status
 take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, size_t *places, volume *v)
 {
 	mr_sampling s;
+	uint32_t *index;
 	mr_v3 *p;
 
 	MR_TRY(mr_sampling_find(ctx, point, n, opts->sampling, &s));
-	mr_sampling_places(ctx, point, &s, &p, NULL, places);
+	mr_sampling_places(ctx, point, &s, &p, &index, places);
 	MR_TRY(mr_volume_samples(ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), &v->s));
-	return opts->sides ? take_sides(ctx, point, n, opts->sides, v) : MR_OK;
+	if (opts->sides)
+		take_sides(ctx, index, *places, opts->sides, v);
+	return MR_OK;
 }
 
 mr_status
