@@ -35,7 +35,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_solve_result, fixed),
 	CMD_COUNTED(mr_solve_result, handles),
 	CMD_COUNTED(mr_solve_result, isolated_components),
-	CMD_COUNTED(mr_solve_result, isolated_vertices),
 	CMD_MEASURED(mr_solve_result, negative_weights),
 	CMD_MEASURED(mr_solve_result, seconds_assemble),
 	CMD_MEASURED(mr_solve_result, seconds_solve),

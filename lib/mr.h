@@ -466,10 +466,9 @@ typedef struct mr_solve_opts {
 
 typedef struct mr_solve_result {
 	size_t free, fixed, handle_vertices, handles;
-	size_t isolated_components, isolated_vertices; /* free, without a constrained vertex */
-	size_t nnz_matrix;
+	size_t isolated_components; /* free, without a constrained vertex */
 	double negative_weights; /* share of the edges */
-	double nnz_factor, bytes_factor;
+	double nnz_factor;
 	double seconds_assemble, seconds_analyse, seconds_factor, seconds_solve;
 	size_t iterations;
 	double rcond, residual;

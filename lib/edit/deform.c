@@ -11,9 +11,9 @@ struct mr_deform {
 	size_t nv;
 	uint32_t *region; /* nv */
 	mr_regions regions;
-	uint32_t lowest; /* region that moves the whole: fixed, or the lowest handle's */
-	size_t handles;  /* the highest, and one */
-	size_t fixed, handled, loose, loose_vertices; /* vertices, and components without a constraint */
+	uint32_t lowest;              /* region that moves the whole: fixed, or the lowest handle's */
+	size_t handles;               /* the highest, and one */
+	size_t fixed, handled, loose; /* vertices, and components without a constraint */
 	mr_deform_system system;
 	mr_energies *energies; /* NULL: poses are linear */
 	mr_loose followers;
@@ -25,11 +25,10 @@ struct mr_deform {
 static mr_status
 count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 {
-	size_t free;
+	size_t free, odd = mr_first_infinite((const double *)rest->p, 3 * d->nv) / 3;
 
-	for (size_t v = 0; v < d->nv; v++)
-		if (!mr_finite(rest->p[v]))
-			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
+	if (odd < d->nv)
+		return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, odd);
 	d->regions = mr_regions_of(ctx, d->region, d->nv);
 	d->handles = d->regions.n - MR_REGION_HANDLE;
 	free = d->regions.count[MR_REGION_FREE];
@@ -86,7 +85,6 @@ settle_loose(
 {
 	for (size_t v = 0; v < d->nv; v++) {
 		bool loose = d->region[v] == MR_REGION_FREE && !anchored[v];
-		d->loose_vertices += loose && !follows[v];
 		d->loose += loose && !follows[v] && part[v] == v;
 		follows[v] = loose;
 	}
@@ -161,11 +159,9 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 	static const double worst = 1e-13;
 	const mr_deform_system *s = &d->system;
 	bool iterates = mr_solver_iterates(s->opts.solver.kind);
-	mr_solver_report r = { .rcond = NAN,
-		.nnz_factor = NAN,
-		.bytes_factor = NAN,
-		.seconds_analyse = NAN,
-		.seconds_factor = NAN };
+	mr_solver_report r = {
+		.rcond = NAN, .nnz_factor = NAN, .seconds_analyse = NAN, .seconds_factor = NAN
+	};
 
 	if (s->solver)
 		r = mr_solver_reported(s->solver);
@@ -181,8 +177,6 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 		.handle_vertices = d->handled,
 		.handles = d->handles,
 		.isolated_components = d->loose,
-		.isolated_vertices = d->loose_vertices,
-		.nnz_matrix = s->nnz,
 		.negative_weights = s->negative,
 		.seconds_assemble = s->seconds_assemble,
 		.seconds_solve = d->seconds_solve,
@@ -190,7 +184,6 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 		.nnz_factor = r.nnz_factor,
 		.seconds_analyse = r.seconds_analyse,
 		.seconds_factor = r.seconds_factor,
-		.bytes_factor = r.bytes_factor,
 		.iterations = s->solver && iterates ? r.iterations : MR_UNKNOWN,
 		.rcond = iterates ? NAN : r.rcond };
 }

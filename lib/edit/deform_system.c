@@ -107,7 +107,6 @@ assemble(mr_ctx *ctx, mr_deform_system *s)
 		for (int e = s->a.start[i]; s->opts.unsymmetric && e < s->a.start[i + 1]; e++)
 			s->a.value[e] *= s->w[i];
 	}
-	s->nnz = (size_t)s->a.start[n];
 	return MR_OK;
 }
 

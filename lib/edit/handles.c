@@ -150,14 +150,14 @@ static mr_status
 read_rows(mr_ctx *ctx, mr_frame *f, const char *column, size_t width, double *row, size_t rows)
 {
 	const void *data;
+	size_t odd;
 
 	MR_TRY(mr_layer_get_rows(ctx, f, "handles", column, rows, &data));
 	memcpy(row, data, rows * width * sizeof *row);
-	for (size_t i = 0; i < rows * width; i++)
-		if (!isfinite(row[i]))
-			return mr_fail(
-			    ctx, MR_ERANGE, "handles: the %s of handle %zu is not finite", column, i / width);
-	return MR_OK;
+	odd = mr_first_infinite(row, rows * width) / width;
+	return odd == rows
+	           ? MR_OK
+	           : mr_fail(ctx, MR_ERANGE, "handles: the %s of handle %zu is not finite", column, odd);
 }
 
 mr_status

@@ -165,8 +165,7 @@ cholesky_setup(
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
 		.seconds_factor = mr_seconds() - analysed,
 		.rcond = cholmod_rcond(c->factor, &c->common),
-		.nnz_factor = c->common.lnz,
-		.bytes_factor = bytes };
+		.nnz_factor = c->common.lnz };
 	return MR_OK;
 }
 

@@ -65,8 +65,7 @@ lu_setup(
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
 		.seconds_factor = mr_seconds() - analysed,
 		.rcond = info[UMFPACK_RCOND],
-		.nnz_factor = info[UMFPACK_LNZ] + info[UMFPACK_UNZ],
-		.bytes_factor = info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT] };
+		.nnz_factor = info[UMFPACK_LNZ] + info[UMFPACK_UNZ] };
 	return MR_OK;
 }
 

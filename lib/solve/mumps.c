@@ -235,8 +235,7 @@ cholesky_setup(
 		return failed(ctx, m, code);
 	*report = (mr_solver_report){ .seconds_analyse = analysed - started,
 		.seconds_factor = mr_seconds() - analysed,
-		.nnz_factor = summed(m->INFOG(29)),
-		.bytes_factor = 1e6 * m->INFOG(22) };
+		.nnz_factor = summed(m->INFOG(29)) };
 	return MR_OK;
 }
 

@@ -66,11 +66,10 @@ typedef struct mr_solver mr_solver;
 /* What the set-up took and found, and of iterative solvers what the last solution took. */
 typedef struct mr_solver_report {
 	double seconds_analyse, seconds_factor;
-	double rcond;        /* a cheap estimate of the reciprocal condition number; 0: none */
-	double nnz_factor;   /* entries of the factors, of all levels */
-	double bytes_factor; /* that they take */
-	size_t iterations;   /* of the last solution, of the slowest right-hand side */
-	double residual;     /* its |b - A x| / |b|, of the worst right-hand side */
+	double rcond;      /* a cheap estimate of the reciprocal condition number; 0: none */
+	double nnz_factor; /* entries of the factors, of all levels */
+	size_t iterations; /* of the last solution, of the slowest right-hand side */
+	double residual;   /* its |b - A x| / |b|, of the worst right-hand side */
 } mr_solver_report;
 
 /* A solver for no matrix yet.  It outlives what the arena gets, and releases, before it is opened. */
