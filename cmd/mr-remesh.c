@@ -41,14 +41,12 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_remesh_result, splits),
 	CMD_COUNTED(mr_remesh_result, collapses),
 	CMD_COUNTED(mr_remesh_result, flips),
-	CMD_COUNTED(mr_remesh_result, tips),
 	CMD_COUNTED(mr_remesh_result, vertices),
 	CMD_COUNTED(mr_remesh_result, faces),
 	CMD_MEASURED(mr_remesh_result, area_variance_before),
 	CMD_MEASURED(mr_remesh_result, area_variance_after),
 	CMD_COUNTED(mr_remesh_result, flipped),
 	CMD_COUNTED(mr_remesh_result, folded),
-	CMD_COUNTED(mr_remesh_result, sharp_edges),
 	{ 0 },
 };
 

@@ -326,12 +326,11 @@ typedef struct mr_remesh_opts {
 #define MR_REMESH_DEFAULTS MR_DEFAULTS(0, false, 0.95, 5, 20, 1.5, 180, 0, 0, 0, false, true, NULL)
 
 typedef struct mr_remesh_result {
-	double length;                         /* target edge length; the mean where it is adaptive */
-	size_t splits, collapses, flips, tips; /* tips: of thin limbs, kept */
-	size_t vertices, faces;                /* of the result */
+	double length; /* target edge length; the mean where it is adaptive */
+	size_t splits, collapses, flips;
+	size_t vertices, faces; /* of the result */
 	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
 	size_t flipped, folded; /* faces against the input; edges */
-	size_t sharp_edges; /* of the input: they are kept */
 } mr_remesh_result;
 
 MR_API mr_status mr_remesh_frame(

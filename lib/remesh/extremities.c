@@ -102,7 +102,7 @@ is_summit(const search *w, uint32_t v, crowd *c)
 }
 
 void
-mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned)
+mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	search w = { d, s, MR_NEW(ctx, d->nv, double), MR_NEW(ctx, d->nv, double) };
@@ -111,12 +111,10 @@ mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned)
 	mr_parallel(ctx, d->nv, 1024, defect_body, &w);
 	for (uint32_t v = 0; v < d->nv; v++)
 		w.total[v] = total_around(&w, v, &c);
-	*pinned = 0;
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (w.total[v] > 0 && is_summit(&w, v, &c)) {
 			d->kind[v] = MR_CORNER;
 			d->at[v] = d->out[v];
-			++*pinned;
 		}
 	mr_mark_release(ctx, mark);
 }

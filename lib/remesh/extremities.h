@@ -10,10 +10,7 @@
 
 #include "remesh/relax.h"
 
-/*
- * Pins the vertices at the tips of the source, of which d is still a copy: they become corners.
- * *pinned: how many.
- */
-void mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned);
+/* Pins the vertices at the tips of the source, of which d is still a copy: they become corners. */
+void mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s);
 
 #endif

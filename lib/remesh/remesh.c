@@ -25,10 +25,9 @@ typedef struct remesher {
 	double *mean;    /* at its faces */
 	mr_dyn d;
 	mr_resampled changes;
-	size_t flips, tips;
+	size_t flips;
 	size_t tidied;  /* splits and collapses when neighbours were last brought together */
 	mr_flaws flaws; /* of the result */
-	size_t sharp;   /* edges of the input */
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 } remesher;
@@ -250,17 +249,6 @@ misses(double excess)
 	return fabs(excess - 1) > 0.05;
 }
 
-/* The edges within the surface that are kept. */
-static size_t
-count_sharp(const mr_dyn *d)
-{
-	size_t edges = 0;
-
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		edges += h < d->twin[h] && d->twin[h] != MR_NONE && mr_dyn_on_curve(d, h);
-	return edges;
-}
-
 /* The length of edges, before a number that is wanted is seen to. */
 static double
 uniform_length(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o)
@@ -279,7 +267,6 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	if (!(mr_mesh_area(r->ctx, m) > 0))
 		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
-	r->sharp = count_sharp(&r->d);
 	if (r->d.curve) {
 		r->curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
 		memcpy(r->curve, r->d.curve, 3 * m->nf * sizeof *r->curve);
@@ -296,7 +283,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	find_means(r);
 	aim(r);
 	if (r->o->project)
-		mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips);
+		mr_pin_tips(r->ctx, &r->d, &r->source);
 	return MR_OK;
 }
 
@@ -416,14 +403,12 @@ report(const remesher *r)
 		.splits = r->changes.splits,
 		.collapses = r->changes.collapses,
 		.flips = r->flips,
-		.tips = r->tips,
 		.vertices = r->d.nv,
 		.faces = r->d.nf,
 		.area_variance_before = r->variance[0],
 		.area_variance_after = r->variance[1],
 		.flipped = r->flaws.flipped,
-		.folded = r->flaws.folded,
-		.sharp_edges = r->sharp };
+		.folded = r->flaws.folded };
 }
 
 mr_status

@@ -49,15 +49,11 @@ least_faces(size_t n)
 }
 
 size_t
-mr_simplify_faces_for(mr_ctx *ctx, size_t n)
+mr_simplify_faces_for(size_t n)
 {
 	size_t count = n / POINTS_A_FACE, least = least_faces(n);
 
-	if (count >= least)
-		return count;
-	mr_note(ctx, "%zu faces for %zu points, as one for every %d would be too few", least, n,
-	    (int)POINTS_A_FACE);
-	return least;
+	return count > least ? count : least;
 }
 
 size_t

@@ -26,7 +26,7 @@ mr_status mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opt
     uint32_t *onto, mr_simplify_result *result);
 
 /* The faces of a control mesh for n points; says where that is more than one for so many points as usual. */
-size_t mr_simplify_faces_for(mr_ctx *ctx, size_t n);
+size_t mr_simplify_faces_for(size_t n);
 
 /* The most that it may have for the sake of its distance from them. */
 size_t mr_simplify_most_faces_for(size_t n);

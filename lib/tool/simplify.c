@@ -45,7 +45,7 @@ limit_by_points(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_si
 	for (size_t v = 0; v < m->nv; v++)
 		room[v] = OFF * mean / sqrt(o->weight[v]) + c->sampling.noise;
 	o->room = room;
-	o->faces = mr_simplify_faces_for(ctx, c->n);
+	o->faces = mr_simplify_faces_for(c->n);
 	o->most = mr_simplify_most_faces_for(c->n);
 }
 
@@ -57,7 +57,7 @@ limit_by_frame(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_sim
 	if (c->n > 0)
 		limit_by_points(ctx, m, c, o);
 	else
-		o->faces = o->to && !strcmp(o->to, "control") ? mr_simplify_faces_for(ctx, m->nv)
+		o->faces = o->to && !strcmp(o->to, "control") ? mr_simplify_faces_for(m->nv)
 		                                              : m->nf / FACES_A_FACE;
 }
 

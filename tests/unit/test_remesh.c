@@ -256,12 +256,10 @@ curves_are_followed_around_small_roundings(void **state)
 	for (double length = 0.7; length < 1.5; length += 0.2) {
 		mr_remesh_opts o = MR_REMESH_DEFAULTS;
 		mr_mesh m = rounded_block(), out;
-		mr_remesh_result result;
 		mr_places map;
 		o.length = length;
 		o.feature = 40;
-		assert_int_equal(mr_remesh(&ctx, &m, &o, &out, &map, &result), MR_OK);
-		assert_int_equal(result.sharp_edges, 104);
+		assert_int_equal(mr_remesh(&ctx, &m, &o, &out, &map, NULL), MR_OK);
 		assert_true((double)out.nf < 10 * mr_mesh_area(&ctx, &m) / (length * length));
 		mr_ctx_free(&ctx);
 	}
