@@ -60,8 +60,8 @@ typedef struct mr_deform_system {
 	mr_hierarchy hierarchy;
 	mr_solver *solver; /* NULL where nothing is to be solved */
 	mr_field work;     /* kept from solve to solve: fresh pages cost as much as the arithmetic */
-	double negative; /* share of the edges at free vertices whose weight is negative */
-	bool measures; /* the residual of each solve, which takes a tenth of its time */
+	double negative;   /* share of the edges at free vertices whose weight is negative */
+	bool measures;     /* the residual of each solve, which takes a tenth of its time */
 	double seconds_assemble, residual;
 } mr_deform_system;
 
