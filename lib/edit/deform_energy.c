@@ -7,7 +7,7 @@
 #include "base/vectors.h"
 #include "op/laplace.h"
 
-enum { GRAIN = 1024 };
+enum { GRAIN = 4096, GATHERED = 32768 }; /* what takes no longer than to wake a thread */
 
 /* A matrix by its columns. */
 typedef struct columns {
@@ -286,7 +286,7 @@ source_of(mr_ctx *ctx, turning *t, const energy *of)
 	t->energy = of;
 	mr_parallel(ctx, s->patch.mesh.nv, GRAIN, local_step, t);
 	mr_parallel(ctx, s->patch.mesh.nf, GRAIN, of->place, t);
-	mr_parallel(ctx, s->patch.end[s->opts.order - 1], GRAIN, gather_sources, t);
+	mr_parallel(ctx, s->patch.end[s->opts.order - 1], GATHERED, gather_sources, t);
 	return t->e->source;
 }
 

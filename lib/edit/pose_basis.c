@@ -41,7 +41,7 @@ mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *respon
 	for (size_t h = 0; h < handles; h++)
 		for (int i = 0; i < 12; i++)
 			change[h].m[i] = t[h].m[i] - identity.m[i];
-	mr_parallel(ctx, n, 4096, respond, &(response_job){ p0, response, handles, change, out });
+	mr_parallel(ctx, n, 32768, respond, &(response_job){ p0, response, handles, change, out });
 	mr_mark_release(ctx, mark);
 }
 

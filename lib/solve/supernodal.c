@@ -217,7 +217,7 @@ write_rows(void *arg, size_t begin, size_t end)
 static void
 solve_columns(const mr_ctx *ctx, mr_supernodal *s, double *b, size_t columns)
 {
-	enum { GRAIN = 8192 };
+	enum { GRAIN = 65536 }; /* less takes no longer than to wake a thread */
 	exchange e = { s, b, columns };
 
 	mr_parallel(ctx, s->l.n, GRAIN, read_rows, &e);
