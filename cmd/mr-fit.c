@@ -31,9 +31,7 @@ static const cmd_field figures[] = {
 	CMD_MEASURED(mr_fit_result, distance_max_after),
 	CMD_COUNTED(mr_fit_result, folded_edges_before),
 	CMD_COUNTED(mr_fit_result, folded_edges_after),
-	CMD_COUNTED(mr_fit_result, damped),
 	CMD_COUNTED(mr_fit_result, crossing_faces),
-	CMD_MEASURED(mr_fit_result, seconds_iteration),
 	{ 0 },
 };
 

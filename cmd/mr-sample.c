@@ -39,8 +39,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_sample_result, spikes),
 	CMD_COUNTED(mr_sample_result, filled),
 	CMD_MEASURED(mr_sample_result, fairness),
-	CMD_COUNTED(mr_sample_result, refine_steps),
-	CMD_COUNTED(mr_sample_result, mend_passes),
 	CMD_MEASURED(mr_sample_result, gap_mean),
 	CMD_MEASURED(mr_sample_result, gap_max),
 	CMD_MEASURED(mr_sample_result, area_ratio),

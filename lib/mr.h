@@ -591,9 +591,7 @@ typedef struct mr_fit_result {
 	double distance_mean_before, distance_rms_before, distance_max_before; /* of the points */
 	double distance_mean_after, distance_rms_after, distance_max_after;
 	size_t folded_edges_before, folded_edges_after; /* of two subdivisions, at their limit points */
-	size_t damped, crossing_faces; /* vertices that did not go all the way; control faces */
-	double cg_steps;               /* an iteration, on the mean */
-	double seconds_iteration;
+	size_t crossing_faces; /* of the control mesh */
 } mr_fit_result;
 
 MR_API mr_status mr_fit_frame(
@@ -621,7 +619,6 @@ typedef struct mr_sample_result {
 	double tries_1, tries_4, tries_10;  /* shares of the vertices that so many triangles were tried for */
 	size_t missed, rejected;            /* vertices without a triangle, with none within the bounds */
 	size_t spikes, filled;              /* heights taken back, and filled in */
-	size_t refine_steps, mend_passes;   /* of conjugate gradients in the last pass; around folds */
 	double fairness, gap_mean, gap_max; /* gap: from the points, in shares of the diagonal */
 	double area_ratio;                  /* of the surface to its domain */
 	size_t folds;                       /* triangles that fold over or pass through others */

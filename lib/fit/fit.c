@@ -141,7 +141,6 @@ least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, const do
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
 	double *w = MR_NEW(ctx, n, double), *share = MR_NEW(ctx, n, double);
 	mr_fit_system system;
-	size_t steps = 0;
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	mr_fit_guard *guard;
 
@@ -152,12 +151,11 @@ least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, const do
 		share_area(ctx, foot, spacing, n, surface->level[0].nf, share);
 		weigh(ctx, foot, share, n, NEAR * edge, outliers, w);
 		mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness);
-		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
-		MR_TRY(mr_fit_step(ctx, guard, x, z, &result->damped));
+		MR_TRY(mr_fit_solve(ctx, &system, z));
+		MR_TRY(mr_fit_step(ctx, guard, x, z));
 		mr_fit_surface_move(ctx, surface, x);
 		mr_fit_attach(ctx, surface, point, n, false, foot);
 	}
-	result->cg_steps = (double)steps / (double)passes;
 	result->crossing_faces = mr_fit_crossing(guard);
 	if (result->crossing_faces > 0)
 		mr_found(ctx, &(mr_finding){
@@ -282,7 +280,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	double *spacing = MR_NEW(ctx, n, double);
 	size_t given;
 	double edge = mr_mesh_edge_scale(ctx, control);
-	double start, noise;
+	double noise;
 	mr_sampling sampling;
 	mr_fit_gap before, after;
 	mr_fit_result r;
@@ -303,12 +301,10 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	noise = is_local || sampling.usual == 0 ? 0 : sampling.noise / sampling.usual;
 	before = mr_fit_measure(ctx, foot, n);
 	r.folded_edges_before = count_folds(ctx, &s);
-	start = mr_seconds();
 	MR_TRY(is_local
 		   ? local(ctx, &s, sorted, n, opts, passes, x)
 		   : least_squares(ctx, &s, sorted, spacing, n, noise, opts, passes, n < given, foot, x, &r));
 	r.iterations = passes;
-	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)
 		mr_fit_attach(ctx, &s, sorted, n, true, foot);
 	after = mr_fit_measure(ctx, foot, n);

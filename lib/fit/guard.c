@@ -193,11 +193,10 @@ aim(guard *g, const mr_v3 *z)
 }
 
 mr_status
-mr_fit_step(mr_ctx *ctx, mr_fit_guard *g, mr_v3 *x, mr_v3 *z, size_t *damped)
+mr_fit_step(mr_ctx *ctx, mr_fit_guard *g, mr_v3 *x, mr_v3 *z)
 {
 	const mr_loop *l = &g->level[0];
-	size_t nv = l->nv;
-	mr_guard m = { l->t, l->topo, nv, l->nf, HALVES, look, is_bad, g };
+	mr_guard m = { l->t, l->topo, l->nv, l->nf, HALVES, look, is_bad, g };
 
 	aim(g, z);
 	for (int i = 0; i < SMOOTHS; i++) {
@@ -206,10 +205,7 @@ mr_fit_step(mr_ctx *ctx, mr_fit_guard *g, mr_v3 *x, mr_v3 *z, size_t *damped)
 		aim(g, z);
 	}
 	MR_TRY(mr_guarded_move(ctx, &m, g->control.from, g->control.to));
-	*damped = 0;
-	for (size_t v = 0; v < nv; v++)
-		*damped += mr_dist(g->control.to[v], mr_add(x[v], z[v])) > 0;
-	memcpy(x, g->control.to, nv * sizeof *x);
+	memcpy(x, g->control.to, l->nv * sizeof *x);
 	rest(&g->control);
 	rest(&g->fine);
 	return MR_OK;

@@ -23,8 +23,7 @@ size_t mr_fit_crossing(const mr_fit_guard *guard);
  * degrees that was less so, or let a face of it pass through another, z becomes more like the motions around,
  * so that what sticks out moves as a whole; then what would do so still goes half as far, and so on; at last
  * it stays.  So do the corners of faces whose surface would close beyond 150 degrees or pass through itself.
- * *damped: vertices that did not go all the way.
  */
-mr_status mr_fit_step(mr_ctx *ctx, mr_fit_guard *guard, mr_v3 *x, mr_v3 *z, size_t *damped);
+mr_status mr_fit_step(mr_ctx *ctx, mr_fit_guard *guard, mr_v3 *x, mr_v3 *z);
 
 #endif

@@ -472,21 +472,21 @@ apply(const mr_ctx *ctx, const void *system, mr_multivector s, const double *x, 
  * and on thousands of control vertices take a quarter of the fit.
  */
 mr_status
-mr_fit_solve(mr_ctx *ctx, mr_fit_system *system, mr_v3 *motion, size_t *steps)
+mr_fit_solve(mr_ctx *ctx, mr_fit_system *system, mr_v3 *motion)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	size_t nv = (size_t)system->a.n;
+	size_t nv = (size_t)system->a.n, steps = 0;
 	mr_preconditioner b;
 	mr_cg g = { .s = { 3 * nv, 1 },
 		.apply = apply,
 		.a = system,
 		.b = &(mr_preconditioner){ .apply = precondition, .data = &b },
 		.tol = ACCURACY,
-		.most = *steps + MOST_STEPS };
+		.most = MOST_STEPS };
 
 	MR_TRY(mr_incomplete_new(ctx, &system->a, false, &b));
 	memset(motion, 0, nv * sizeof *motion);
-	MR_TRY(mr_cg_improve(ctx, &g, (double *)motion, (double *)system->b, steps));
+	MR_TRY(mr_cg_improve(ctx, &g, (double *)motion, (double *)system->b, &steps));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

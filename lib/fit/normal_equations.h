@@ -53,8 +53,7 @@ mr_status mr_fit_system_build(
 void mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,
     const mr_fit_foot *foot, const double *w, size_t n, double fairness);
 
-/* The motion of the control vertices, the caller's, to a thousandth; uses the right-hand side up.  *steps
- * grows by those of the iteration. */
-mr_status mr_fit_solve(mr_ctx *ctx, mr_fit_system *system, mr_v3 *motion, size_t *steps);
+/* The motion of the control vertices, the caller's, to a thousandth; uses the right-hand side up. */
+mr_status mr_fit_solve(mr_ctx *ctx, mr_fit_system *system, mr_v3 *motion);
 
 #endif

@@ -142,7 +142,7 @@ find_residual(const mr_ctx *ctx, const matrix *a, const double *h, double *r)
 }
 
 mr_status
-mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, double *h, size_t *steps)
+mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, double *h)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t n = e->n, taken = 0;
@@ -157,8 +157,6 @@ mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, d
 	find_residual(ctx, &a, h, r);
 	MR_TRY(mr_cg_improve(ctx, &g, h, r, &taken));
 	mr_mark_release(ctx, mark);
-	if (steps)
-		*steps = taken;
 	return MR_OK;
 }
 
@@ -246,7 +244,7 @@ mr_heights_minimise_some(
 	part_energy(ctx, e, &p, count, inner, &some);
 	for (size_t i = 0; i < p.n; i++)
 		x[i] = h[p.vertex[i]];
-	MR_TRY(mr_heights_minimise(ctx, &some, tol, most, x, NULL));
+	MR_TRY(mr_heights_minimise(ctx, &some, tol, most, x));
 	for (size_t i = 0; i < count; i++)
 		h[list[i]] = x[i];
 	mr_mark_release(ctx, mark);
@@ -305,7 +303,7 @@ mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t
 	fill_rings(ctx, e, known, h);
 	plate.fixed = MR_NEW(ctx, e->n, bool);
 	memcpy(plate.fixed, known, e->n * sizeof *known);
-	MR_TRY(mr_heights_minimise(ctx, &plate, 1e-4, count < e->n ? STEPS : 0, h, NULL));
+	MR_TRY(mr_heights_minimise(ctx, &plate, 1e-4, count < e->n ? STEPS : 0, h));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

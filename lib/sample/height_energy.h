@@ -30,10 +30,9 @@ void mr_heights_add_data(mr_ctx *ctx, mr_heights *e);
 
 /*
  * Comes closer to the minimum by conjugate gradients: until the gradient is `tol` times as long as at first,
- * or `most` steps.  h: n, changed in place.  Returns the steps in *steps.
+ * or `most` steps.  h: n, changed in place.
  */
-mr_status
-mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, double *h, size_t *steps);
+mr_status mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, double *h);
 
 /* The same for a few heights: those of the vertices listed; all others stay.  It costs no more than these and
  * two rings around them, but for 4 n bytes. */

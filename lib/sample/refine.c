@@ -267,7 +267,7 @@ fit_pass(mr_ctx *ctx, fit *x, bool validated)
 	mr_parallel(ctx, x->d->m.nv, GRAIN, assemble_rows, x);
 	if (validated)
 		MR_TRY(validate(ctx, x));
-	MR_TRY(mr_heights_minimise(ctx, x->e, 1e-3, x->weights->steps, x->height, &x->found->refine_steps));
+	MR_TRY(mr_heights_minimise(ctx, x->e, 1e-3, x->weights->steps, x->height));
 	return MR_OK;
 }
 
@@ -441,9 +441,9 @@ static mr_status
 mend_all(mr_ctx *ctx, fit *x, size_t *folds)
 {
 	enum { MOST = 40, PATIENCE = 8 };
-	size_t least = SIZE_MAX, vain = 0, pass;
+	size_t least = SIZE_MAX, vain = 0;
 
-	for (pass = 0;; pass++) {
+	for (size_t pass = 0;; pass++) {
 		MR_TRY(find_bad(ctx, x, folds));
 		vain = *folds < least ? 0 : vain + 1;
 		least = *folds < least ? *folds : least;
@@ -455,7 +455,6 @@ mend_all(mr_ctx *ctx, fit *x, size_t *folds)
 		mr_progress(ctx, "mending", (double)(pass + 1) / MOST);
 	}
 	x->local = false;
-	x->found->mend_passes = pass;
 	return MR_OK;
 }
 

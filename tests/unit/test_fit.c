@@ -165,7 +165,7 @@ test_steps_fold_nothing(void **state)
 	mr_v3 *x = MR_NEW(&ctx, m.nv, mr_v3), *z = MR_NEW(&ctx, m.nv, mr_v3);
 	mr_fit_surface s;
 	mr_fit_guard *guard;
-	size_t damped, pairs;
+	size_t pairs;
 
 	(void)state;
 	for (size_t v = 0; v < m.nv; v++) {
@@ -175,8 +175,7 @@ test_steps_fold_nothing(void **state)
 	z[0] = mr_mul(12, mr_unit(mr_cross(m.p[0], mr_vec(m.p[0].y, m.p[0].z, m.p[0].x))));
 	assert_int_equal(mr_fit_surface_build(&ctx, &m, NULL, &s), MR_OK);
 	assert_int_equal(mr_fit_guard_new(&ctx, &s, x, &guard), MR_OK);
-	assert_int_equal(mr_fit_step(&ctx, guard, x, z, &damped), MR_OK);
-	assert_in_range(damped, 1, m.nv / 4);
+	assert_int_equal(mr_fit_step(&ctx, guard, x, z), MR_OK);
 	assert_true(mr_dist(x[0], m.p[0]) > 0);
 	for (size_t v = 0; v < m.nv; v++)
 		if (mr_dot(m.p[v], m.p[0]) < 0)
