@@ -4,9 +4,6 @@
 static const cmd_field figures[] = {
 	CMD_COUNTED(mr_encode_result, heights),
 	CMD_COUNTED(mr_encode_result, offsets),
-	CMD_COUNTED(mr_encode_result, searched),
-	CMD_MEASURED(mr_encode_result, steps_mean),
-	CMD_MEASURED(mr_encode_result, crossed_mean),
 	CMD_MEASURED(mr_encode_result, residual_max),
 	CMD_MEASURED(mr_encode_result, height_max),
 	{ 0 },

@@ -405,8 +405,7 @@ MR_API mr_status mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o
     mr_split_result *result) MR_WARN_UNUSED;
 
 typedef struct mr_encode_result {
-	size_t heights, offsets, searched; /* vertices that have one, the other; that no walk placed */
-	double steps_mean, crossed_mean;
+	size_t heights, offsets;         /* vertices that have one, the other */
 	double residual_max, height_max; /* of the mesh's diagonal */
 } mr_encode_result;
 

@@ -38,7 +38,7 @@ displaced(const mr_phong *s, const mr_detail *d, size_t i)
 /* Encoding (Kobbelt, Vorsatz, Seidel 1999: Multiresolution hierarchies on unstructured triangle meshes) */
 
 typedef struct tally {
-	size_t steps, crossed, searched, offsets;
+	size_t offsets;
 	double residual, height; /* the largest */
 } tally;
 
@@ -103,15 +103,9 @@ limit_of(const encoder *e, size_t i, mr_place start)
 }
 
 static bool
-walk_to_foot(const encoder *e, size_t i, mr_place start, tally *t)
+walk_to_foot(const encoder *e, size_t i, mr_place start)
 {
-	mr_walk walk = { 0, 0 };
-	bool found = mr_foot_walk(
-	    &e->ground, e->mesh->p[i], start, limit_of(e, i, start), &e->foot[i], &walk);
-
-	t->steps += walk.steps;
-	t->crossed += walk.crossed;
-	return found;
+	return mr_foot_walk(&e->ground, e->mesh->p[i], start, limit_of(e, i, start), &e->foot[i]);
 }
 
 static bool
@@ -147,12 +141,11 @@ static void
 find_easy_feet(void *arg, size_t begin, size_t end)
 {
 	const encoder *e = arg;
-	tally *t = &e->tally[begin / GRAIN];
 
 	for (size_t i = begin; i < end; i++) {
 		mr_place near = mr_correspond_near(e->map, e->ground.surface.m, i);
 		settle(e, i,
-		    near.face != MR_NONE && walk_to_foot(e, i, near, t) && is_likely(e, i, near) &&
+		    near.face != MR_NONE && walk_to_foot(e, i, near) && is_likely(e, i, near) &&
 			is_sound(e, &e->foot[i]) && faces_alike(e, i, &e->foot[i]));
 		if (e->sound[i]) {
 			e->face[i] = e->foot[i].at.face;
@@ -166,7 +159,6 @@ static void
 find_feet(void *arg, size_t begin, size_t end)
 {
 	const encoder *e = arg;
-	tally *t = &e->tally[begin / GRAIN];
 
 	for (size_t i = begin; i < end; i++) {
 		mr_place start;
@@ -179,9 +171,8 @@ find_feet(void *arg, size_t begin, size_t end)
 			e->bary[i] = at.bary;
 		}
 		start = (mr_place){ e->face[i], e->bary[i] };
-		found = walk_to_foot(e, i, start, t);
-		t->searched += !found;
-		settle(e, i, (found || search_foot(e, i, start)) && is_sound(e, &e->foot[i]));
+		found = walk_to_foot(e, i, start) || search_foot(e, i, start);
+		settle(e, i, found && is_sound(e, &e->foot[i]));
 	}
 }
 
@@ -277,18 +268,12 @@ report(const encoder *e, double diagonal)
 
 	for (size_t i = 0; i < (n + GRAIN - 1) / GRAIN; i++) {
 		const tally *t = &e->tally[i];
-		sum.steps += t->steps;
-		sum.crossed += t->crossed;
-		sum.searched += t->searched;
 		sum.offsets += t->offsets;
 		sum.residual = fmax(sum.residual, t->residual);
 		sum.height = fmax(sum.height, t->height);
 	}
 	return (mr_encode_result){ .heights = n - sum.offsets,
 		.offsets = sum.offsets,
-		.searched = sum.searched,
-		.steps_mean = n ? (double)sum.steps / (double)n : 0,
-		.crossed_mean = n ? (double)sum.crossed / (double)n : 0,
 		.residual_max = diagonal > 0 ? sum.residual / diagonal : 0,
 		.height_max = diagonal > 0 ? sum.height / diagonal : 0 };
 }

@@ -154,7 +154,7 @@ cross_edge(const mr_ground *g, uint32_t *face, int corner, double share, place f
 }
 
 bool
-mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot, mr_walk *walk)
+mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot)
 {
 	/* of seven models walks end within 64 steps, all but a few; with a patience of 4 up to 1 % more
 	 * vertices are searched for, with 64 walks take up to twice the steps; stuck once up to 5 % more are
@@ -183,10 +183,8 @@ mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot 
 			return false;
 		}
 		det = newton_step(&f, r, &at);
-		walk->steps++;
 		corner = first_exit(from, at, &share);
 		if (corner >= 0) {
-			walk->crossed++;
 			if (cross_edge(g, &face, corner, share, from, &at))
 				f = field_of(&g->surface, face);
 			else if (++stuck == STUCK)

@@ -20,17 +20,12 @@ typedef struct mr_foot {
 	double height; /* along the Phong normal */
 } mr_foot;
 
-/* What a walk cost. */
-typedef struct mr_walk {
-	uint32_t steps, crossed; /* Newton steps; edges crossed */
-} mr_walk;
-
 /*
  * Newton's method from the place `start`, over edges into neighbouring faces.
  * True where it found a foot with |height| <= limit, on the near side of the surface's
  * centres of curvature; *foot is written only then.
  */
-bool mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot, mr_walk *walk);
+bool mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot);
 
 /*
  * The lowest foot on the sheet of `face`, without a good start.  The sheet is the part of the
