@@ -614,7 +614,10 @@ work_on(cmd *c, mr_frame *f)
 		mr_frame_copy(&c->ctx, f, &before);
 	if (!tool->sink && !c->state->no_history)
 		MR_TRY(mr_frame_add_history(&c->ctx, f, c->state->history));
+	c->result = c->stats && tool->figures ? MR_NEW_ZERO(&c->ctx, CMD_RESULT, char) : NULL;
 	MR_TRY(tool->frame(c, f));
+	if (c->result)
+		cmd_figures(c, tool->figures, c->result);
 	if (tool->sink)
 		return findings_settle(&c->ctx, &c->state->book, f, c->quiet ? NULL : show_warning);
 	MR_TRY(mr_judge_losses(&c->ctx, &before, f));

@@ -6,12 +6,8 @@
  *	static mr_status
  *	smooth_frame(cmd *c, mr_frame *f)
  *	{
- *		mr_smooth_result r;
- *
  *		opts.layer = c->layer;
- *		MR_TRY(mr_smooth_frame(&c->ctx, f, &opts, &r));
- *		cmd_figures(c, figures, &r);
- *		return MR_OK;
+ *		return mr_smooth_frame(&c->ctx, f, &opts, c->result);
  *	}
  *
  *	const cmd_tool cmd_this = {
@@ -29,6 +25,25 @@
 
 typedef struct cmd cmd;
 
+/* A field of a struct that is a figure: its name, and where it is. */
+typedef struct cmd_field {
+	const char *name; /* NULL ends a table */
+	bool count;       /* a size_t; else a double */
+	size_t offset;
+} cmd_field;
+
+enum { CMD_RESULT = 512 }; /* bytes, for any tool's */
+
+#define CMD_FIELD(type, field) (offsetof(type, field) + 0 * sizeof(char[sizeof(type) <= CMD_RESULT ? 1 : -1]))
+#define CMD_COUNTED(type, field)                                                                             \
+	{                                                                                                    \
+#field, true, CMD_FIELD(type, field)                                                          \
+	}
+#define CMD_MEASURED(type, field)                                                                            \
+	{                                                                                                    \
+#field, false, CMD_FIELD(type, field)                                                         \
+	}
+
 typedef struct cmd_tool {
 	const char *summary;
 	const char *operands;   /* usage of the operands; NULL: [FILE...], streams to read */
@@ -39,6 +54,7 @@ typedef struct cmd_tool {
 
 	/* A filter or sink: once per frame, then the frame is sent. */
 	mr_status (*frame)(cmd *c, mr_frame *f);
+	const cmd_field *figures; /* of c->result, which `frame` fills; NULL: it has none */
 
 	/* A source, instead of `frame`: makes and sends frames itself, by cmd_send. */
 	mr_status (*source)(cmd *c);
@@ -70,6 +86,7 @@ struct cmd {
 	bool verbose, quiet, keep_going;
 	bool no_check; /* a judged tool is not judged */
 	bool stats;    /* figures are asked for: --stats */
+	void *result;  /* of `frame`, for its figures; NULL: they are not asked for */
 	mr_outfile
 	    held; /* a file that is whole gets its name at the end, if all goes well; else it is dropped */
 	mr_packing packing; /* what the writer does with columns; mr-cat sets it in prepare */
@@ -114,22 +131,6 @@ mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand)
 
 /* A figure of the frame at work, for --stats. */
 void cmd_figure(cmd *c, const char *name, double value);
-
-/* A field of a struct that is a figure: its name, and where it is. */
-typedef struct cmd_field {
-	const char *name; /* NULL ends a table */
-	bool count;       /* a size_t; else a double */
-	size_t offset;
-} cmd_field;
-
-#define CMD_COUNTED(type, field)                                                                             \
-	{                                                                                                    \
-#field, true, offsetof(type, field)                                                          \
-	}
-#define CMD_MEASURED(type, field)                                                                            \
-	{                                                                                                    \
-#field, false, offsetof(type, field)                                                         \
-	}
 
 /* The fields of a result as figures, in the order of the table; those that were not measured are left out. */
 void cmd_figures(cmd *c, const cmd_field *table, const void *result);

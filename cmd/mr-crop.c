@@ -38,11 +38,7 @@ static const cmd_field figures[] = {
 static mr_status
 crop_frame(cmd *c, mr_frame *f)
 {
-	mr_crop_result result;
-
-	MR_TRY(mr_crop_by(&c->ctx, f, c->layer, &selection, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_crop_by(&c->ctx, f, c->layer, &selection, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -50,4 +46,5 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = prepare,
 	.frame = crop_frame,
+	.figures = figures,
 };

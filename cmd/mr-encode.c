@@ -12,15 +12,12 @@ static const cmd_field figures[] = {
 static mr_status
 encode_frame(cmd *c, mr_frame *f)
 {
-	mr_encode_result result;
-
-	MR_TRY(mr_encode_frame(&c->ctx, f, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_encode_frame(&c->ctx, f, c->result);
 }
 
 const cmd_tool cmd_this = {
 	.summary = "store a mesh as detail over its base surface",
 	.frame = encode_frame,
+	.figures = figures,
 	.fixed_layers = true,
 };

@@ -38,12 +38,8 @@ static const cmd_field figures[] = {
 static mr_status
 fit_frame(cmd *c, mr_frame *f)
 {
-	mr_fit_result result;
-
 	opts.layer = c->layer;
-	MR_TRY(mr_fit_frame(&c->ctx, f, &opts, c->stats ? &result : NULL));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_fit_frame(&c->ctx, f, &opts, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -51,4 +47,5 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = prepare,
 	.frame = fit_frame,
+	.figures = figures,
 };

@@ -50,15 +50,12 @@ static const cmd_field figures[] = {
 static mr_status
 map_frame(cmd *c, mr_frame *f)
 {
-	mr_map_result result;
 	char *name;
 
 	MR_TRY(to ? mr_outname_once(&c->ctx, &given, to, f->name, f->number, &name)
 		  : mr_outname(&c->ctx, from, f->name, f->number, &name));
-	MR_TRY(to ? mr_map_write(&c->ctx, f, name, &opts, &result)
-		  : mr_map_read(&c->ctx, f, name, &opts, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return to ? mr_map_write(&c->ctx, f, name, &opts, c->result)
+	          : mr_map_read(&c->ctx, f, name, &opts, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -66,5 +63,6 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = check,
 	.frame = map_frame,
+	.figures = figures,
 	.fixed_layers = true,
 };

@@ -39,12 +39,8 @@ static const cmd_field figures[] = {
 static mr_status
 normals_frame(cmd *c, mr_frame *f)
 {
-	mr_normals_result result;
-
 	opts.layer = c->layer;
-	MR_TRY(mr_normals_frame(&c->ctx, f, &opts, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_normals_frame(&c->ctx, f, &opts, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -52,4 +48,5 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = prepare,
 	.frame = normals_frame,
+	.figures = figures,
 };

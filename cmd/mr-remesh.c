@@ -53,12 +53,8 @@ static const cmd_field figures[] = {
 static mr_status
 remesh_frame(cmd *c, mr_frame *f)
 {
-	mr_remesh_result result;
-
 	opts.layer = c->layer;
-	MR_TRY(mr_remesh_frame(&c->ctx, f, &opts, c->stats ? &result : NULL));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_remesh_frame(&c->ctx, f, &opts, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -66,5 +62,6 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = prepare,
 	.frame = remesh_frame,
+	.figures = figures,
 	.judged = true,
 };

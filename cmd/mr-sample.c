@@ -35,7 +35,6 @@ static const cmd_field figures[] = {
 	CMD_MEASURED(mr_sample_result, tries_4),
 	CMD_MEASURED(mr_sample_result, tries_10),
 	CMD_COUNTED(mr_sample_result, missed),
-	CMD_COUNTED(mr_sample_result, rejected),
 	CMD_COUNTED(mr_sample_result, spikes),
 	CMD_COUNTED(mr_sample_result, filled),
 	CMD_MEASURED(mr_sample_result, fairness),

@@ -54,12 +54,8 @@ prepare(cmd *c)
 static mr_status
 simplify_frame(cmd *c, mr_frame *f)
 {
-	mr_simplify_result result;
-
 	opts.layer = c->layer;
-	MR_TRY(mr_simplify_frame(&c->ctx, f, &opts, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_simplify_frame(&c->ctx, f, &opts, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -67,5 +63,6 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = prepare,
 	.frame = simplify_frame,
+	.figures = figures,
 	.judged = true,
 };

@@ -25,16 +25,13 @@ static const cmd_field figures[] = {
 static mr_status
 smooth_frame(cmd *c, mr_frame *f)
 {
-	mr_smooth_result result;
-
 	opts.layer = c->layer;
-	MR_TRY(mr_smooth_frame(&c->ctx, f, &opts, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_smooth_frame(&c->ctx, f, &opts, c->result);
 }
 
 const cmd_tool cmd_this = {
 	.summary = "low-pass filter a mesh into its base surface",
 	.options = table,
 	.frame = smooth_frame,
+	.figures = figures,
 };

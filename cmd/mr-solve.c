@@ -63,11 +63,7 @@ prepare(cmd *c)
 static mr_status
 solve_frame(cmd *c, mr_frame *f)
 {
-	mr_solve_result result;
-
-	MR_TRY(mr_solve_frame(&c->ctx, f, &opts, c->cache, c->stats ? &result : NULL));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_solve_frame(&c->ctx, f, &opts, c->cache, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -75,5 +71,6 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = prepare,
 	.frame = solve_frame,
+	.figures = figures,
 	.caches = true,
 };

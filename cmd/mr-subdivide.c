@@ -34,12 +34,8 @@ check(cmd *c)
 static mr_status
 subdivide_frame(cmd *c, mr_frame *f)
 {
-	mr_subdivide_result result;
-
 	opts.layer = c->layer;
-	MR_TRY(mr_subdivide_frame(&c->ctx, f, &opts, c->cache, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_subdivide_frame(&c->ctx, f, &opts, c->cache, c->result);
 }
 
 const cmd_tool cmd_this = {
@@ -47,5 +43,6 @@ const cmd_tool cmd_this = {
 	.options = table,
 	.prepare = check,
 	.frame = subdivide_frame,
+	.figures = figures,
 	.caches = true,
 };

@@ -616,7 +616,7 @@ typedef struct mr_sample_result {
 	size_t level, vertices; /* of the domain */
 	size_t outliers;
 	double tries_1, tries_4, tries_10;  /* shares of the vertices that so many triangles were tried for */
-	size_t missed, rejected;            /* vertices without a triangle, with none within the bounds */
+	size_t missed;                      /* vertices without a triangle */
 	size_t spikes, filled;              /* heights taken back, and filled in */
 	double fairness, gap_mean, gap_max; /* gap: from the points, in shares of the diagonal */
 	double area_ratio;                  /* of the surface to its domain */

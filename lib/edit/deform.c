@@ -166,8 +166,6 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 	if (s->solver)
 		r = mr_solver_reported(s->solver);
 	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices", s->patch.end[0], d->fixed, d->handled);
-	if (s->solver && iterates)
-		mr_note(ctx, "%zu iterations", r.iterations);
 	if (!iterates && r.rcond > 0 && r.rcond < worst)
 		mr_found(ctx, &(mr_finding){ .kind = MR_INEXACT,
 				  .value = r.rcond,

@@ -173,19 +173,17 @@ search_vertices(void *arg, size_t begin, size_t end)
 static void
 report_tries(const search *s, size_t nv, mr_sample_result *r)
 {
-	size_t tally[6] = { 0 }, met = 0, taken = 0;
+	size_t tally[6] = { 0 }, met = 0;
 
 	for (size_t v = 0; v < nv; v++) {
 		if (s->points[v] && s->points[v] <= 5)
 			tally[s->points[v]]++;
 		met += s->points[v] > 0;
-		taken += s->hit[v];
 	}
 	r->tries_1 = (double)tally[3] / (double)nv;
 	r->tries_4 = (double)(tally[3] + tally[4]) / (double)nv;
 	r->tries_10 = (double)(tally[3] + tally[4] + tally[5]) / (double)nv;
 	r->missed = nv - met;
-	r->rejected = met - taken;
 }
 
 /* Of the n vertices of the list, among k points. */

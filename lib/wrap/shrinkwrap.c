@@ -183,13 +183,10 @@ report_cover(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 }
 
 static void
-put_result(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
+put_result(const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 {
-	static const char *const names[] = { "", "cube", "volume", "template", "height field" };
 	mr_wrap_result r = c->found;
 
-	mr_note(ctx, "by the %s; %zu opening%s left open, %zu hole%s closed", names[r.method],
-	    c->lids.openings, mr_plural(c->lids.openings), c->lids.holes, mr_plural(c->lids.holes));
 	r.places = cloud->sampling.places;
 	r.outliers = cloud->sampling.outliers;
 	r.sampling = cloud->spacing;
@@ -216,7 +213,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	report_cover(ctx, cloud, &c);
 	report_topology(ctx, cloud, &c);
-	put_result(ctx, cloud, &c, result);
+	put_result(cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
 	return MR_OK;
 }
@@ -250,7 +247,7 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 	mr_unfold(&c.d);
 	MR_TRY(mr_wrap_assess(ctx, cloud, &c));
 	report_cover(ctx, cloud, &c);
-	put_result(ctx, cloud, &c, result);
+	put_result(cloud, &c, result);
 	memcpy(p, c.d.p, start->nv * sizeof *p);
 	return MR_OK;
 }
