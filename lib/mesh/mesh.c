@@ -322,7 +322,8 @@ normals_of_vertices(void *arg, size_t begin, size_t end)
 		for (size_t i = j->inc->start[v]; i < j->inc->start[v + 1]; i++) {
 			const uint32_t *c = j->m->t[j->inc->face[i]].v;
 			const face_normal *f = &j->face[j->inc->face[i]];
-			sum = mr_axpy(f->angle[(c[1] == v) + 2 * (c[2] == v)], f->unit, sum);
+			int k = (c[1] == v) + 2 * ((c[0] != v) & (c[1] != v));
+			sum = mr_axpy(f->angle[k], f->unit, sum);
 		}
 		j->normal[v] = mr_unit(sum);
 	}

@@ -119,7 +119,6 @@ crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_c
 	if (subset.nv == 0 || (m.nf && subset.nf == 0))
 		return mr_fail(ctx, MR_EMESH, "nothing would be left of the %zu %s of %s", m.nf ? m.nf : m.nv,
 		    m.nf ? "faces" : "points", layer);
-	mr_note(ctx, "%zu of %zu vertices are left", subset.nv, m.nv);
 	*result = (mr_crop_result){ subset.nv, subset.nf, m.nv - subset.nv, m.nf - subset.nf };
 	return mr_layer_keep(ctx, f, layer, &subset);
 }
