@@ -28,7 +28,7 @@ struct mr_energies {
 	mr_mesh inside;      /* for rounds */
 	/* Workspace, kept from pose to pose. */
 	mr_v3 *rest, *q, *before; /* a vertex each */
-	columns *map;             /* A of each vertex, less that of the whole */
+	columns *map;             /* of each vertex, less the whole's */
 	mr_wide *corner;          /* 3 for each face */
 	double *source;           /* 3 for each vertex */
 };
@@ -156,7 +156,7 @@ apply(const columns *a, mr_v3 x, mr_wide *to)
 	*to = a->c[0] * x.x + a->c[1] * x.y + a->c[2] * x.z;
 }
 
-/* What each corner of a face has of the divergence of its gradient. */
+/* Each corner's share of the divergence of the face's gradient. */
 static MR_INLINED void
 put_sources(const turning *t, size_t f, const mr_wide p[3])
 {

@@ -98,7 +98,7 @@ thinned(mr_ctx *ctx, const mr_mesh *m)
 	return some;
 }
 
-/* Where all is near some of what was there, it is near all of that. */
+/* Distances to some old faces come first: where they are small, those to all are. */
 static void
 judge_distance(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, const mr_bvh *bvh)
 {

@@ -189,7 +189,7 @@ validate(mr_ctx *ctx, validation *x, double exponent, double *result)
 	return MR_OK;
 }
 
-/* Where the score is least, to a third of a decade, the score being flat there: it falls, then rises. */
+/* The exponent of least score, within a third: the score falls, is flat, and rises. */
 static mr_status
 search(mr_ctx *ctx, validation *x, double *exponent)
 {

@@ -11,7 +11,7 @@
 
 #include "subdivide/loop.h"
 
-/* What is known of the triangles of levels 0 to n, and of where they were last. */
+/* A tree of the triangles of levels 0 to n, with their last positions. */
 typedef struct mr_loop_tree mr_loop_tree;
 
 mr_loop_tree *mr_loop_tree_new(mr_ctx *ctx, const mr_loop *level, size_t n);

@@ -580,7 +580,7 @@ are_consistent(const mr_volume_sides *j, bool normals)
 	return j->told > 0 && j->alike >= ALIKE_LEAST && (!normals || j->near >= NEAR_LEAST);
 }
 
-/* What is known of the sides of the points that count, index of each place, if it fits them. */
+/* Takes the given sides where they fit the points.  index: of each place. */
 static void
 take_sides(mr_ctx *ctx, const uint32_t *index, size_t places, const mr_outer_sides *sides, volume *v)
 {
