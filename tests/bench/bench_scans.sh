@@ -12,17 +12,6 @@ KINDS=${KINDS:-vertices uniform noise03 noise1 outliers holes density views cut 
 
 # ---- one cloud: bench_scans.sh --one MODEL KIND SEED ----
 
-is_old() { # row, what it depends on
-	row=$1
-	shift
-	[ ! -e "$row" ] || [ -n "$(find "$@" -newer "$row")" ]
-}
-timed() { # command line: leaves err, $code, $seconds
-	begin=$(date +%s.%N)
-	timeout -k 5 "$LIMIT" sh -c "$1" 2>err
-	code=$?
-	seconds=$(echo "$(date +%s.%N) $begin" | awk '{ print $1 - $2 }')
-}
 judge() { # name, kind, seed, result: its row, by $code, $seconds and err
 	warned=$(sed -n -e '/outliers.* left out/d' -e 's/^mr-\([a-z]*\): .*warning: .*/\1/p' err | uniq | paste -sd , -)
 	{
@@ -62,15 +51,6 @@ fi
 
 # ---- all of them ----
 
-closed() { # file: it is a model without intersections, in $out/models
-	name=$(basename "$1" .gz)
-	[ -e "$out/models/$name.mrs" ] || mr-import -q --repair "$1" -o "$out/models/$name.mrs" 2>/dev/null || return
-	[ -e "$out/models/$name.json" ] || mr-info --json "$out/models/$name.mrs" >"$out/models/$name.json" || return
-	for figure in '"oriented":true' '"manifold":true' '"boundary_edges":0' '"intersecting_pairs":0'; do
-		grep -q "$figure" "$out/models/$name.json" || return
-	done
-	echo "$name"
-}
 OPEN3D=$(python_of_open3d) PEERS=${PEERS-cgal open3d}
 [ -n "$OPEN3D" ] || PEERS=$(echo "$PEERS" | sed 's/open3d//')
 [ -x "$BUILD/bench/peer_reconstruct" ] || PEERS=$(echo "$PEERS" | sed 's/cgal//')
@@ -87,7 +67,7 @@ for row in $rows; do
 done
 every_model sphere torus cube knot bumpy boxes >files
 while read -r file; do
-	closed "$file"
+	sound_model "$file" '"oriented":true' '"manifold":true' '"boundary_edges":0' '"intersecting_pairs":0'
 done <files >names
 [ -s names ] || { echo "no closed model in $DATA/meshes is called $MODELS" >&2; exit 1; }
 for name in $(cat names); do

@@ -15,6 +15,30 @@ every_model() { # shapes
 	done
 }
 
+# Of a model the name, if it can be imported, to $out/models/NAME.mrs and .json (what mr-info says), and has the figures.
+sound_model() { # file, figures of the JSON
+	name=$(basename "$1" .gz)
+	[ -e "$out/models/$name.mrs" ] || mr-import -q --repair "$1" -o "$out/models/$name.mrs" 2>/dev/null || return
+	[ -e "$out/models/$name.json" ] || mr-info -q --json "$out/models/$name.mrs" >"$out/models/$name.json" || return
+	shift
+	for figure; do
+		grep -q "$figure" "$out/models/$name.json" || return
+	done
+	echo "$name"
+}
+
+is_old() { # row, what it depends on
+	row=$1
+	shift
+	[ ! -e "$row" ] || [ -n "$(find "$@" -newer "$row")" ]
+}
+timed() { # command line, for $LIMIT seconds: leaves err, $code, $seconds
+	begin=$(date +%s.%N)
+	timeout -k 5 "$LIMIT" sh -c "$1" 2>err
+	code=$?
+	seconds=$(echo "$(date +%s.%N) $begin" | awk '{ print $1 - $2 }')
+}
+
 # Pictures $out/NAME-a.png, ... of 40 each of the results in $out/results/NAME that are named on stdin and there, under NAME's
 # line of the file `table`.
 sheets() { # name

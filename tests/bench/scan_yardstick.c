@@ -6,12 +6,14 @@
  *	vertices   those of the model
  *	uniform    50,000 points, uniform by area
  *	noise03    uniform, with normal noise of 0.3 % of the diagonal along the normal
+ *	noise02    the same of 0.2 %
+ *	noise05    the same of 0.5 %
  *	noise1     30,000 points, noise of 1 %
  *	outliers   noise03, and 5 % of the points anywhere in the box, a tenth larger
  *	holes      uniform, without those within three spacings of 20 places
  *	density    uniform, thinned out along the longest axis to a sixtieth
- *	views      uniform, those seen from six sides; what spans openings of them by mr_wrap_cut is no
- *surface cut        uniform on what is before the middle of the second longest axis; it is the surface
+ *	views      uniform, those seen from six sides; what spans openings by mr_wrap_cut is no surface
+ *	cut        uniform on what is before the middle of the second longest axis; it is the surface
  *	terrain    uniform on waves over a rectangle, of the model's proportions
  *	near       uniform, on the model and its copy along its shortest axis, three spacings from it
  * JSON: topology of truth and result (Euler number, components, boundary loops, right: all the same); thin:
@@ -252,10 +254,27 @@ copy_beside(mr_ctx *ctx, cloud *c)
 	return MR_OK;
 }
 
+/* In diagonals. */
+static double
+noise_of(const char *kind)
+{
+	static const struct {
+		const char *kind;
+		double noise;
+	} of[] = { { "noise02", 0.002 }, { "noise03", 0.003 }, { "outliers", 0.003 }, { "noise05", 0.005 },
+		{ "noise1", 0.01 } };
+
+	for (size_t i = 0; i < sizeof of / sizeof *of; i++)
+		if (!strcmp(kind, of[i].kind))
+			return of[i].noise;
+	return 0;
+}
+
 static mr_status
 make_cloud(mr_ctx *ctx, const char *kind, uint64_t seed, cloud *c)
 {
 	bool *marked = MR_NEW(ctx, POINTS, bool);
+	double noise = noise_of(kind);
 
 	if (!marked)
 		return MR_EMEM;
@@ -279,10 +298,8 @@ make_cloud(mr_ctx *ctx, const char *kind, uint64_t seed, cloud *c)
 	if (!strcmp(kind, "near"))
 		MR_TRY(copy_beside(ctx, c));
 	MR_TRY(draw_points(ctx, strcmp(kind, "noise1") ? POINTS : POINTS_FEWER, seed, c));
-	if (!strcmp(kind, "noise1"))
-		mr_add_noise(c->p, c->normal, c->n, 0.01 * c->diagonal, seed + 1);
-	else if (!strcmp(kind, "noise03") || !strcmp(kind, "outliers"))
-		mr_add_noise(c->p, c->normal, c->n, 0.003 * c->diagonal, seed + 1);
+	if (noise > 0)
+		mr_add_noise(c->p, c->normal, c->n, noise * c->diagonal, seed + 1);
 	else if (!strcmp(kind, "holes"))
 		mark_holes(c, marked);
 	else if (!strcmp(kind, "density"))

@@ -71,7 +71,7 @@ write_frame(mr_ctx *ctx, const char *path, const mr_frame *frame)
 	return mr_prefix(ctx, write_stream(ctx, fd, frame), "%s", path);
 }
 
-/* A frame of one mesh whose faces have colours. */
+/* A frame of one mesh, called as the file is; harm: colours of its faces, or NULL. */
 static mr_status
 write_picture(mr_ctx *ctx, const char *path, const char *note, const mr_mesh *m, const mr_rgb *harm)
 {
@@ -83,7 +83,8 @@ write_picture(mr_ctx *ctx, const char *path, const char *note, const mr_mesh *m,
 		return MR_EMEM;
 	MR_TRY(mr_frame_new(ctx, name, &frame));
 	MR_TRY(mr_layer_put_mesh(ctx, frame, "mesh", m));
-	MR_TRY(mr_frame_put(ctx, frame, "mesh", "harm", (mr_shape){ 'f', 'b', 3 }, harm, m->nf));
+	if (harm)
+		MR_TRY(mr_frame_put(ctx, frame, "mesh", "harm", (mr_shape){ 'f', 'b', 3 }, harm, m->nf));
 	return write_frame(ctx, path, frame);
 }
 
