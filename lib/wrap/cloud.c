@@ -56,6 +56,7 @@ mr_wrap_cloud_open(
 		own[i] = s->spacing[index[i]];
 	cloud->p = p;
 	cloud->own = own;
+	cloud->of = index;
 	cloud->box = mr_box_of(p, cloud->n);
 	cloud->diagonal = mr_box_diagonal(cloud->box);
 	MR_TRY(look_at_extent(ctx, cloud));

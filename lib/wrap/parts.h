@@ -13,7 +13,8 @@
 /* The points to wrap: each place once, without outliers, along the Z curve. */
 typedef struct mr_wrap_cloud {
 	const mr_v3 *p;
-	const double *own; /* their spacings; NULL of some */
+	const double *own;  /* their spacings; NULL of some */
+	const uint32_t *of; /* which of those given each is */
 	size_t n;
 	mr_near *near;
 	mr_box box;
@@ -115,11 +116,18 @@ mr_status mr_wrap_settle_open(
 /* Cuts what the options say out of w, closed, and settles the rest. */
 mr_status mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
 
-/* Whether the points are a height field over a plane. */
-mr_status mr_wrap_is_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3], bool *is_sheet);
+/* Height fields over one plane, that of axis[0] and axis[1]: each has its points. */
+typedef struct mr_wrap_fields {
+	mr_wrap_cloud *layer;
+	size_t layers;
+	mr_v3 axis[3];
+} mr_wrap_fields;
 
-/* The wrap of a height field over the plane of axis[0] and axis[1]: open. */
-mr_status mr_wrap_sheet(
-    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_v3 axis[3], mr_wrap *w);
+/* The points as one height field or several, one over the other; no layers where they are none. */
+mr_status mr_wrap_find_fields(mr_ctx *ctx, mr_wrap_cloud *cloud, mr_wrap_fields *f);
+
+/* The wrap of height fields: open. */
+mr_status mr_wrap_sheets(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_wrap_fields *f, mr_wrap *w);
 
 #endif

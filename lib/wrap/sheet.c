@@ -1,7 +1,9 @@
 /*
  * Height fields: terrain, reliefs, scans from one side.  A flat lattice under the points, cut to their
- * outline and lifted onto them.
+ * outline and lifted onto them.  What lies over the rest of the points, as a table over a floor, is a field
+ * of its own.
  */
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "space/local_planes.h"
 #include "wrap/parts.h"
@@ -20,7 +22,19 @@ static const double OFF = 1, NOISE = 4;  /* spacings and deviations of noise fro
 static const double OFF_MOST = 0.2;      /* share of the pairs */
 static const double NOISE_MOST = 0.5;    /* spacings */
 
-enum { PROBES = 4096, PLACES_LEAST = 100, PLANE_MOST = 128, AROUND = 16, PAIRS = 9, HEIGHTS = 5 };
+/* Links of a sheet: their height and length, in lengths and spacings.  Of its points so many are over others
+ * where it is a layer; of normals' ways from the middle so much is outward of a slab. */
+static const double STEEP = 0.7, REACH = 3, OVER = 0.8, APART = 0.5;
+
+enum {
+	PROBES = 4096,
+	PLACES_LEAST = 100,
+	PLANE_MOST = 128,
+	AROUND = 16,
+	PAIRS = 9,
+	HEIGHTS = 5,
+	LAYERS_MOST = 64
+};
 
 /* Spacings around the points: more than half an opening's width. */
 static const double MARGIN = 8;
@@ -89,7 +103,7 @@ find_axes(const probes *q, mr_v3 axis[3])
 
 /* The coordinates of the points along the first two axes. */
 static mr_status
-flatten(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 axis[3], mr_wrap_cloud *flat)
+flatten(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 *axis, mr_wrap_cloud *flat)
 {
 	mr_v3 *p = MR_NEW(ctx, cloud->n, mr_v3);
 
@@ -123,24 +137,177 @@ share_off(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, co
 	return MR_OK;
 }
 
-mr_status
-mr_wrap_is_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3], bool *is_sheet)
+/* The share of the pairs that are off where the points are taken for a field over axis[2]. */
+static mr_status
+measure_field(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 *axis, double *off)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_wrap_cloud flat;
-	double off = 1;
 	probes q;
 
-	*is_sheet = false;
+	MR_TRY(find_planes(ctx, cloud, &q));
+	MR_TRY(flatten(ctx, cloud, axis, &flat));
+	MR_TRY(share_off(ctx, cloud, &flat, &q, off));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Parts of neighbours; the links between sheets, which are upright, join none. */
+static mr_status
+find_parts(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 up, uint32_t *set)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *nearest = MR_NEW(ctx, cloud->n * PAIRS, uint32_t);
+
+	MR_TRY(mr_near_query(ctx, cloud->near, cloud->p, cloud->n, PAIRS, nearest, NULL));
+	for (uint32_t i = 0; i < cloud->n; i++)
+		for (size_t k = 0; k < PAIRS && nearest[i * PAIRS + k] != MR_NONE; k++) {
+			uint32_t j = nearest[i * PAIRS + k];
+			mr_v3 e = mr_sub(cloud->p[j], cloud->p[i]);
+			double length = mr_norm(e);
+			if (fabs(mr_dot(e, up)) <= STEEP * length &&
+			    length <= REACH * fmax(cloud->own[i], cloud->own[j]))
+				mr_sets_join(set, i, j);
+		}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Counts each part's points, and those over or under the points of other parts that are not small. */
+static mr_status
+count_over(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, uint32_t *set, uint32_t *size,
+    uint32_t *over)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *nearest = MR_NEW(ctx, cloud->n * PAIRS, uint32_t);
+	double *dist2 = MR_NEW(ctx, cloud->n * PAIRS, double);
+
+	for (uint32_t i = 0; i < cloud->n; i++)
+		size[mr_sets_root(set, i)]++;
+	MR_TRY(mr_near_query(ctx, flat->near, flat->p, cloud->n, PAIRS, nearest, dist2));
+	for (uint32_t i = 0; i < cloud->n; i++) {
+		bool is_over = false;
+		for (size_t k = i * PAIRS; k < (i + 1) * PAIRS && nearest[k] != MR_NONE; k++)
+			is_over |= dist2[k] < cloud->own[i] * cloud->own[i] &&
+			           mr_sets_root(set, nearest[k]) != mr_sets_root(set, i) &&
+			           size[mr_sets_root(set, nearest[k])] >= PLACES_LEAST;
+		over[mr_sets_root(set, i)] += is_over;
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The points of a cloud in one set, as a cloud. */
+static mr_status
+take_layer(mr_ctx *ctx, const mr_wrap_cloud *cloud, uint32_t *set, uint32_t root, mr_wrap_cloud *layer)
+{
+	mr_v3 *p = MR_NEW(ctx, cloud->n, mr_v3);
+	double *own = MR_NEW(ctx, cloud->n, double);
+	uint32_t *of = MR_NEW(ctx, cloud->n, uint32_t);
+
+	*layer = *cloud;
+	layer->n = 0;
+	layer->area = 0;
+	for (uint32_t i = 0; i < cloud->n; i++)
+		if (mr_sets_root(set, i) == root) {
+			p[layer->n] = cloud->p[i];
+			own[layer->n] = cloud->own[i];
+			of[layer->n++] = cloud->of[i];
+			layer->area += cloud->own[i] * cloud->own[i];
+		}
+	layer->p = p;
+	layer->own = own;
+	layer->of = of;
+	layer->box = mr_box_of(p, layer->n);
+	layer->diagonal = mr_box_diagonal(layer->box);
+	return mr_near_build_distinct(ctx, p, layer->n, &layer->near);
+}
+
+/* Joins all to the largest part but those that lie over others; how many layers there are. */
+static size_t
+join_layers(const mr_wrap_cloud *cloud, uint32_t *set, const uint32_t *size, const uint32_t *over)
+{
+	uint32_t base = 0;
+	size_t layers = 1;
+
+	for (uint32_t i = 1; i < cloud->n; i++)
+		base = size[i] > size[base] ? i : base;
+	for (uint32_t i = 0; i < cloud->n; i++)
+		if (size[i] > 0 && i != base) {
+			if (size[i] >= PLACES_LEAST && over[i] > OVER * size[i])
+				layers++;
+			else
+				mr_sets_join(set, i, base);
+		}
+	return layers;
+}
+
+/* Sets f->layer and f->layers where the points are several fields, one over the other. */
+static mr_status
+find_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap_fields *f)
+{
+	uint32_t *set = mr_sets_new(ctx, cloud->n), *size = MR_NEW_ZERO(ctx, cloud->n, uint32_t),
+		 *over = MR_NEW_ZERO(ctx, cloud->n, uint32_t);
+	mr_wrap_cloud flat;
+	size_t layers, found = 0;
+
+	MR_TRY(flatten(ctx, cloud, f->axis, &flat));
+	MR_TRY(find_parts(ctx, cloud, f->axis[2], set));
+	MR_TRY(count_over(ctx, cloud, &flat, set, size, over));
+	layers = join_layers(cloud, set, size, over);
+	if (layers == 1 || layers > LAYERS_MOST)
+		return MR_OK;
+	f->layer = MR_NEW(ctx, layers, mr_wrap_cloud);
+	for (uint32_t i = 0; i < cloud->n; i++) {
+		double off;
+		if (mr_sets_root(set, i) != i)
+			continue;
+		MR_TRY(take_layer(ctx, cloud, set, i, &f->layer[found]));
+		MR_TRY(measure_field(ctx, &f->layer[found++], f->axis, &off));
+		if (off > OFF_MOST)
+			return MR_OK;
+	}
+	f->layers = found;
+	return MR_OK;
+}
+
+/* Whether normals of the points face outward on both sides of them, as a slab's. */
+static bool
+face_apart(const mr_wrap_cloud *cloud)
+{
+	mr_v3 c = { 0, 0, 0 };
+	double sum = 0, all = 0;
+
+	for (size_t i = 0; i < cloud->n; i++)
+		c = mr_axpy(1 / (double)cloud->n, cloud->p[i], c);
+	for (size_t i = 0; cloud->sides && i < cloud->n; i++) {
+		mr_v3 n = cloud->sides->toward[cloud->of[i]];
+		double out = mr_finite(n) ? mr_dot(mr_unit(n), mr_sub(cloud->p[i], c)) : 0;
+		sum += out;
+		all += fabs(out);
+	}
+	return sum > APART * all;
+}
+
+mr_status
+mr_wrap_find_fields(mr_ctx *ctx, mr_wrap_cloud *cloud, mr_wrap_fields *f)
+{
+	double off;
+	probes q;
+
+	*f = (mr_wrap_fields){ 0 };
 	if (cloud->n < PLACES_LEAST || cloud->sampling.noise > NOISE_MOST * cloud->spacing)
 		return MR_OK;
 	MR_TRY(find_planes(ctx, cloud, &q));
-	if (find_axes(&q, axis) <= UPRIGHT_MOST) {
-		MR_TRY(flatten(ctx, cloud, axis, &flat));
-		MR_TRY(share_off(ctx, cloud, &flat, &q, &off));
+	if (find_axes(&q, f->axis) > UPRIGHT_MOST)
+		return MR_OK;
+	MR_TRY(measure_field(ctx, cloud, f->axis, &off));
+	if (off > 0 && !face_apart(cloud))
+		MR_TRY(find_layers(ctx, cloud, f));
+	if (f->layers == 0 && off <= OFF_MOST) {
+		f->layer = cloud;
+		f->layers = 1;
 	}
-	*is_sheet = off <= OFF_MOST;
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -212,21 +379,93 @@ make_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const
 	return lift(ctx, cloud, flat, axis, m);
 }
 
-/* What is wide but in the projection, as the wall behind what hides it, is an opening too. */
-mr_status
-mr_wrap_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_v3 axis[3], mr_wrap *w)
+/* Turns axis[2] to the side on which most directions of the points are. */
+static void
+face_sides(const mr_wrap_cloud *cloud, mr_v3 axis[3])
 {
-	mr_wrap_lids *lids = &w->lids;
+	double side = 0;
+
+	for (size_t i = 0; cloud->sides && i < cloud->n; i++) {
+		double up = mr_dot(cloud->sides->toward[cloud->of[i]], axis[2]);
+		side += up > 0 ? 1 : up < 0 ? -1 : 0;
+	}
+	if (side < 0) {
+		axis[1] = mr_mul(-1, axis[1]);
+		axis[2] = mr_mul(-1, axis[2]);
+	}
+}
+
+/* What is wide but in the projection, as the wall behind what hides it, is an opening too. */
+static mr_status
+wrap_field(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_v3 axis[3],
+    mr_wrap_lids *lids, mr_dyn *d)
+{
+	mr_v3 own[3] = { axis[0], axis[1], axis[2] };
 	size_t openings;
 	mr_wrap_cloud flat;
 	mr_mesh m;
 
-	MR_TRY(make_sheet(ctx, cloud, o, axis, &flat, lids, &m));
-	MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, &w->d));
-	m = mr_dyn_view(&w->d, "control");
+	face_sides(cloud, own);
+	MR_TRY(make_sheet(ctx, cloud, o, own, &flat, lids, &m));
+	MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, d));
+	m = mr_dyn_view(d, "control");
 	openings = lids->openings;
 	MR_TRY(mr_wrap_cut(ctx, cloud, o->lids, false, &m, lids));
-	if (lids->openings > openings)
-		MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, &w->d));
+	return lids->openings > openings ? mr_wrap_settle_open(ctx, cloud, o, &m, d) : MR_OK;
+}
+
+static void
+add_lids(const mr_wrap_lids *from, mr_wrap_lids *to)
+{
+	if (from->width > to->width) {
+		to->width = from->width;
+		to->at = from->at;
+	}
+	to->openings += from->openings;
+	to->holes += from->holes;
+	to->doubtful += from->doubtful;
+}
+
+/* All meshes in one. */
+static mr_status
+join(mr_ctx *ctx, const mr_dyn *d, size_t n, mr_dyn *out)
+{
+	mr_mesh all = { .name = "control" };
+	mr_tri *t;
+	mr_v3 *p;
+
+	for (size_t i = 0; i < n; i++) {
+		all.nv += d[i].nv;
+		all.nf += d[i].nf;
+	}
+	p = MR_NEW(ctx, all.nv, mr_v3);
+	t = MR_NEW(ctx, all.nf, mr_tri);
+	all = (mr_mesh){ .name = "control", .p = p, .t = t };
+	for (size_t i = 0; i < n; i++) {
+		mr_mesh m = mr_dyn_view(&d[i], "control");
+		uint32_t first = (uint32_t)all.nv;
+		memcpy(p + all.nv, m.p, m.nv * sizeof *p);
+		for (size_t f = 0; f < m.nf; f++)
+			t[all.nf++] = (mr_tri){ { first + m.t[f].v[0], first + m.t[f].v[1],
+			    first + m.t[f].v[2] } };
+		all.nv += m.nv;
+	}
+	return mr_wrap_dyn(ctx, &all, out);
+}
+
+mr_status
+mr_wrap_sheets(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_wrap_fields *f, mr_wrap *w)
+{
+	mr_dyn *d = MR_NEW(ctx, f->layers, mr_dyn);
+
+	for (size_t i = 0; i < f->layers; i++) {
+		mr_wrap_lids lids = { 0 };
+		MR_TRY(wrap_field(ctx, &f->layer[i], o, f->axis, &lids, &d[i]));
+		add_lids(&lids, &w->lids);
+	}
+	w->d = d[0];
+	if (f->layers > 1)
+		MR_TRY(join(ctx, d, f->layers, &w->d));
 	return mr_wrap_assess(ctx, cloud, w);
 }

@@ -92,35 +92,17 @@ wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_w
 	return mr_wrap_open(ctx, cloud, o, c);
 }
 
-/* Turns axis[2] to the side on which most directions of the points are. */
-static void
-face_sides(const mr_wrap_cloud *cloud, mr_v3 axis[3])
-{
-	double side = 0;
-
-	for (size_t i = 0; cloud->sides && i < cloud->sampling.n; i++) {
-		double up = mr_dot(cloud->sides->toward[i], axis[2]);
-		side += up > 0 ? 1 : up < 0 ? -1 : 0;
-	}
-	if (side < 0) {
-		axis[1] = mr_mul(-1, axis[1]);
-		axis[2] = mr_mul(-1, axis[2]);
-	}
-}
-
-/* A height field as one, unless it is to be closed. */
+/* Height fields as such, unless they are to be closed. */
 static mr_status
-wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
+wrap_by_method(mr_ctx *ctx, mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
-	bool is_sheet = false;
-	mr_v3 axis[3];
+	mr_wrap_fields fields = { .layers = 0 };
 
 	if (o->method == MR_WRAP_AUTO && o->lids != MR_LIDS_ALL)
-		MR_TRY(mr_wrap_is_sheet(ctx, cloud, axis, &is_sheet));
-	if (is_sheet) {
+		MR_TRY(mr_wrap_find_fields(ctx, cloud, &fields));
+	if (fields.layers > 0) {
 		c->found.method = SHEET;
-		face_sides(cloud, axis);
-		return mr_wrap_sheet(ctx, cloud, o, axis, c);
+		return mr_wrap_sheets(ctx, cloud, o, &fields, c);
 	}
 	if (cloud->flat)
 		return mr_fail(ctx, MR_EMESH, "%zu points lie in a plane: no surface closes around them",
@@ -204,7 +186,7 @@ put_result(const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 /* ---- the whole ---- */
 
 static mr_status
-wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out, mr_wrap_result *result)
+wrap(mr_ctx *ctx, mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out, mr_wrap_result *result)
 {
 	mr_wrap c;
 
