@@ -116,18 +116,17 @@ mr_status mr_wrap_settle_open(
 /* Cuts what the options say out of w, closed, and settles the rest. */
 mr_status mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
 
-/* Height fields over one plane, that of axis[0] and axis[1]: each has its points. */
-typedef struct mr_wrap_fields {
-	mr_wrap_cloud *layer;
-	size_t layers;
+/* A height field over the plane of axis[0] and axis[1]: its points, and where they are in this. */
+typedef struct mr_wrap_field {
+	mr_wrap_cloud cloud, flat;
 	mr_v3 axis[3];
-} mr_wrap_fields;
+} mr_wrap_field;
 
-/* The points as one height field or several, one over the other; no layers where they are none. */
-mr_status mr_wrap_find_fields(mr_ctx *ctx, mr_wrap_cloud *cloud, mr_wrap_fields *f);
+/* The points as one height field or several, one over the other; none where they are no such thing. */
+mr_status mr_wrap_find_fields(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap_field **field, size_t *fields);
 
-/* The wrap of height fields: open. */
-mr_status mr_wrap_sheets(
-    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_wrap_fields *f, mr_wrap *w);
+/* The wrap of the fields of a cloud: open. */
+mr_status mr_wrap_fields(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o,
+    const mr_wrap_field *field, size_t fields, mr_wrap *w);
 
 #endif

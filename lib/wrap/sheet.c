@@ -20,7 +20,10 @@ static const double UPRIGHT = 0.2;       /* cosine to the normal of the plane */
 static const double UPRIGHT_MOST = 0.03; /* share of the planes */
 static const double OFF = 1, NOISE = 4;  /* spacings and deviations of noise from a plane, that are off it */
 static const double OFF_MOST = 0.2;      /* share of the pairs */
-static const double NOISE_MOST = 0.5;    /* spacings */
+/* Pairs of two sheets are so much farther apart, but for a share: 0 to 8 % of two, 18 % and more of terrain.
+ */
+static const double SECOND = 2.2, BETWEEN_MOST = 0.13;
+static const double NOISE_MOST = 0.5; /* spacings */
 
 /* Links of a sheet: their height and length, in lengths and spacings.  Of its points so many are over others
  * where it is a layer; of normals' ways from the middle so much is outward of a slab. */
@@ -116,39 +119,32 @@ flatten(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 *axis, mr_wrap_clou
 	return mr_near_build(ctx, p, cloud->n, &flat->near);
 }
 
-/* The share of pairs of neighbours in the projection that are not on one sheet. */
+/* Of pairs of neighbours in the projection: the share that is not on one sheet, and of these the share that
+ * is not on two. */
+typedef struct pairs {
+	double off, between;
+} pairs;
+
 static mr_status
-share_off(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, const probes *q, double *share)
+look_at_pairs(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, const probes *q, pairs *of)
 {
 	mr_v3 *p = MR_NEW(ctx, q->n, mr_v3);
 	uint32_t *nearest = MR_NEW(ctx, q->n * PAIRS, uint32_t);
-	size_t off = 0, all = 0;
+	size_t off = 0, between = 0, all = 0;
 
 	for (size_t i = 0; i < q->n; i++)
 		p[i] = flat->p[q->at[i]];
 	MR_TRY(mr_near_query(ctx, flat->near, p, q->n, PAIRS, nearest, NULL));
 	for (size_t i = 0; i < q->n; i++) {
 		double most = OFF * cloud->own[q->at[i]] + NOISE * cloud->sampling.noise;
-		for (size_t j = 1; j < PAIRS && nearest[i * PAIRS + j] != MR_NONE; j++, all++)
-			off += fabs(mr_dot(mr_sub(cloud->p[nearest[i * PAIRS + j]], cloud->p[q->at[i]]),
-				   q->normal[i])) > most;
+		for (size_t j = 1; j < PAIRS && nearest[i * PAIRS + j] != MR_NONE; j++, all++) {
+			mr_v3 to = mr_sub(cloud->p[nearest[i * PAIRS + j]], cloud->p[q->at[i]]);
+			double far = fabs(mr_dot(to, q->normal[i]));
+			off += far > most;
+			between += far > most && far < SECOND * most;
+		}
 	}
-	*share = (double)off / (double)all;
-	return MR_OK;
-}
-
-/* The share of the pairs that are off where the points are taken for a field over axis[2]. */
-static mr_status
-measure_field(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 *axis, double *off)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_wrap_cloud flat;
-	probes q;
-
-	MR_TRY(find_planes(ctx, cloud, &q));
-	MR_TRY(flatten(ctx, cloud, axis, &flat));
-	MR_TRY(share_off(ctx, cloud, &flat, &q, off));
-	mr_mark_release(ctx, mark);
+	*of = (pairs){ (double)off / (double)all, off > 0 ? (double)between / (double)off : 1 };
 	return MR_OK;
 }
 
@@ -173,25 +169,36 @@ find_parts(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 up, uint32_t *set)
 	return MR_OK;
 }
 
-/* Counts each part's points, and those over or under the points of other parts that are not small. */
+/* Of the parts but the largest and the small ones: how many points are over or under those of others. */
 static mr_status
-count_over(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, uint32_t *set, uint32_t *size,
-    uint32_t *over)
+count_over(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, uint32_t *set,
+    const uint32_t *size, uint32_t base, uint32_t *over)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *nearest = MR_NEW(ctx, cloud->n * PAIRS, uint32_t);
-	double *dist2 = MR_NEW(ctx, cloud->n * PAIRS, double);
+	mr_v3 *p = MR_NEW(ctx, cloud->n, mr_v3);
+	uint32_t *at = MR_NEW(ctx, cloud->n, uint32_t), *nearest;
+	double *dist2;
+	size_t n = 0;
 
-	for (uint32_t i = 0; i < cloud->n; i++)
-		size[mr_sets_root(set, i)]++;
-	MR_TRY(mr_near_query(ctx, flat->near, flat->p, cloud->n, PAIRS, nearest, dist2));
 	for (uint32_t i = 0; i < cloud->n; i++) {
+		uint32_t root = mr_sets_root(set, i);
+		if (root != base && size[root] >= PLACES_LEAST) {
+			p[n] = flat->p[i];
+			at[n++] = i;
+		}
+	}
+	nearest = MR_NEW(ctx, n * PAIRS, uint32_t);
+	dist2 = MR_NEW(ctx, n * PAIRS, double);
+	MR_TRY(mr_near_query(ctx, flat->near, p, n, PAIRS, nearest, dist2));
+	for (size_t i = 0; i < n; i++) {
+		uint32_t root = mr_sets_root(set, at[i]);
+		double own = cloud->own[at[i]];
 		bool is_over = false;
-		for (size_t k = i * PAIRS; k < (i + 1) * PAIRS && nearest[k] != MR_NONE; k++)
-			is_over |= dist2[k] < cloud->own[i] * cloud->own[i] &&
-			           mr_sets_root(set, nearest[k]) != mr_sets_root(set, i) &&
-			           size[mr_sets_root(set, nearest[k])] >= PLACES_LEAST;
-		over[mr_sets_root(set, i)] += is_over;
+		for (size_t k = i * PAIRS; k < (i + 1) * PAIRS && nearest[k] != MR_NONE; k++) {
+			uint32_t other = mr_sets_root(set, nearest[k]);
+			is_over |= dist2[k] < own * own && other != root && size[other] >= PLACES_LEAST;
+		}
+		over[root] += is_over;
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -224,50 +231,83 @@ take_layer(mr_ctx *ctx, const mr_wrap_cloud *cloud, uint32_t *set, uint32_t root
 }
 
 /* Joins all to the largest part but those that lie over others; how many layers there are. */
-static size_t
-join_layers(const mr_wrap_cloud *cloud, uint32_t *set, const uint32_t *size, const uint32_t *over)
+static mr_status
+join_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, uint32_t *set, size_t *layers)
 {
-	uint32_t base = 0;
-	size_t layers = 1;
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *size = MR_NEW_ZERO(ctx, cloud->n, uint32_t), *over = MR_NEW_ZERO(ctx, cloud->n, uint32_t),
+		 base = 0;
 
+	for (uint32_t i = 0; i < cloud->n; i++)
+		size[mr_sets_root(set, i)]++;
 	for (uint32_t i = 1; i < cloud->n; i++)
 		base = size[i] > size[base] ? i : base;
+	MR_TRY(count_over(ctx, cloud, flat, set, size, base, over));
+	*layers = 1;
 	for (uint32_t i = 0; i < cloud->n; i++)
-		if (size[i] > 0 && i != base) {
-			if (size[i] >= PLACES_LEAST && over[i] > OVER * size[i])
-				layers++;
-			else
-				mr_sets_join(set, i, base);
-		}
-	return layers;
+		if (size[i] >= PLACES_LEAST && over[i] > OVER * size[i])
+			++*layers;
+		else if (size[i] > 0)
+			mr_sets_join(set, i, base);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
-/* Sets f->layer and f->layers where the points are several fields, one over the other. */
-static mr_status
-find_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap_fields *f)
+/* Turns axis[2] to the side on which most directions of the points are. */
+static void
+face_sides(const mr_wrap_cloud *cloud, mr_v3 axis[3])
 {
-	uint32_t *set = mr_sets_new(ctx, cloud->n), *size = MR_NEW_ZERO(ctx, cloud->n, uint32_t),
-		 *over = MR_NEW_ZERO(ctx, cloud->n, uint32_t);
-	mr_wrap_cloud flat;
+	double side = 0;
+
+	for (size_t i = 0; cloud->sides && i < cloud->n; i++) {
+		double up = mr_dot(cloud->sides->toward[cloud->of[i]], axis[2]);
+		side += up > 0 ? 1 : up < 0 ? -1 : 0;
+	}
+	if (side < 0) {
+		axis[1] = mr_mul(-1, axis[1]);
+		axis[2] = mr_mul(-1, axis[2]);
+	}
+}
+
+/* The points as a field over the plane of axis[0] and axis[1], and how pairs are off it. */
+static mr_status
+open_field(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 *axis, const probes *q, mr_wrap_field *f, pairs *of)
+{
+	f->cloud = *cloud;
+	memcpy(f->axis, axis, sizeof f->axis);
+	face_sides(cloud, f->axis);
+	MR_TRY(flatten(ctx, cloud, f->axis, &f->flat));
+	return look_at_pairs(ctx, cloud, &f->flat, q, of);
+}
+
+/* The points of whole as several fields, one over the other; none where they are not. */
+static mr_status
+find_layers(mr_ctx *ctx, const mr_wrap_field *whole, mr_wrap_field **field, size_t *fields)
+{
+	const mr_wrap_cloud *cloud = &whole->cloud;
+	uint32_t *set = mr_sets_new(ctx, cloud->n);
 	size_t layers, found = 0;
 
-	MR_TRY(flatten(ctx, cloud, f->axis, &flat));
-	MR_TRY(find_parts(ctx, cloud, f->axis[2], set));
-	MR_TRY(count_over(ctx, cloud, &flat, set, size, over));
-	layers = join_layers(cloud, set, size, over);
+	*fields = 0;
+	MR_TRY(find_parts(ctx, cloud, whole->axis[2], set));
+	MR_TRY(join_layers(ctx, cloud, &whole->flat, set, &layers));
 	if (layers == 1 || layers > LAYERS_MOST)
 		return MR_OK;
-	f->layer = MR_NEW(ctx, layers, mr_wrap_cloud);
+	*field = MR_NEW(ctx, layers, mr_wrap_field);
 	for (uint32_t i = 0; i < cloud->n; i++) {
-		double off;
+		mr_wrap_cloud layer;
+		pairs of;
+		probes q;
 		if (mr_sets_root(set, i) != i)
 			continue;
-		MR_TRY(take_layer(ctx, cloud, set, i, &f->layer[found]));
-		MR_TRY(measure_field(ctx, &f->layer[found++], f->axis, &off));
-		if (off > OFF_MOST)
+		MR_TRY(take_layer(ctx, cloud, set, i, &layer));
+		MR_TRY(find_planes(ctx, &layer, &q));
+		MR_TRY(open_field(ctx, &layer, whole->axis, &q, *field + found++, &of));
+		if (of.off > OFF_MOST)
 			return MR_OK;
 	}
-	f->layers = found;
+	*fields = found;
 	return MR_OK;
 }
 
@@ -290,23 +330,25 @@ face_apart(const mr_wrap_cloud *cloud)
 }
 
 mr_status
-mr_wrap_find_fields(mr_ctx *ctx, mr_wrap_cloud *cloud, mr_wrap_fields *f)
+mr_wrap_find_fields(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap_field **field, size_t *fields)
 {
-	double off;
+	mr_wrap_field *whole = MR_NEW(ctx, 1, mr_wrap_field);
+	mr_v3 axis[3];
+	pairs of;
 	probes q;
 
-	*f = (mr_wrap_fields){ 0 };
+	*fields = 0;
 	if (cloud->n < PLACES_LEAST || cloud->sampling.noise > NOISE_MOST * cloud->spacing)
 		return MR_OK;
 	MR_TRY(find_planes(ctx, cloud, &q));
-	if (find_axes(&q, f->axis) > UPRIGHT_MOST)
+	if (find_axes(&q, axis) > UPRIGHT_MOST)
 		return MR_OK;
-	MR_TRY(measure_field(ctx, cloud, f->axis, &off));
-	if (off > 0 && !face_apart(cloud))
-		MR_TRY(find_layers(ctx, cloud, f));
-	if (f->layers == 0 && off <= OFF_MOST) {
-		f->layer = cloud;
-		f->layers = 1;
+	MR_TRY(open_field(ctx, cloud, axis, &q, whole, &of));
+	if (of.between < BETWEEN_MOST && !face_apart(cloud))
+		MR_TRY(find_layers(ctx, whole, field, fields));
+	if (*fields == 0 && of.off <= OFF_MOST) {
+		*field = whole;
+		*fields = 1;
 	}
 	return MR_OK;
 }
@@ -366,52 +408,30 @@ lift(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, const m
 
 /* The flat outline, lifted; lids: its openings. */
 static mr_status
-make_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_v3 axis[3],
-    mr_wrap_cloud *flat, mr_wrap_lids *lids, mr_mesh *m)
+make_sheet(mr_ctx *ctx, const mr_wrap_field *f, const mr_wrap_opts *o, mr_wrap_lids *lids, mr_mesh *m)
 {
 	uint32_t nearest;
 
-	MR_TRY(flatten(ctx, cloud, axis, flat));
-	MR_TRY(make_lattice(ctx, flat, mr_wrap_length(cloud, o), m));
-	MR_TRY(mr_wrap_cut(ctx, flat, o->lids, false, m, lids));
-	MR_TRY(mr_near_query(ctx, flat->near, &lids->at, 1, 1, &nearest, NULL));
-	lids->at = cloud->p[nearest];
-	return lift(ctx, cloud, flat, axis, m);
-}
-
-/* Turns axis[2] to the side on which most directions of the points are. */
-static void
-face_sides(const mr_wrap_cloud *cloud, mr_v3 axis[3])
-{
-	double side = 0;
-
-	for (size_t i = 0; cloud->sides && i < cloud->n; i++) {
-		double up = mr_dot(cloud->sides->toward[cloud->of[i]], axis[2]);
-		side += up > 0 ? 1 : up < 0 ? -1 : 0;
-	}
-	if (side < 0) {
-		axis[1] = mr_mul(-1, axis[1]);
-		axis[2] = mr_mul(-1, axis[2]);
-	}
+	MR_TRY(make_lattice(ctx, &f->flat, mr_wrap_length(&f->cloud, o), m));
+	MR_TRY(mr_wrap_cut(ctx, &f->flat, o->lids, false, m, lids));
+	MR_TRY(mr_near_query(ctx, f->flat.near, &lids->at, 1, 1, &nearest, NULL));
+	lids->at = f->cloud.p[nearest];
+	return lift(ctx, &f->cloud, &f->flat, f->axis, m);
 }
 
 /* What is wide but in the projection, as the wall behind what hides it, is an opening too. */
 static mr_status
-wrap_field(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_v3 axis[3],
-    mr_wrap_lids *lids, mr_dyn *d)
+wrap_field(mr_ctx *ctx, const mr_wrap_field *f, const mr_wrap_opts *o, mr_wrap_lids *lids, mr_dyn *d)
 {
-	mr_v3 own[3] = { axis[0], axis[1], axis[2] };
 	size_t openings;
-	mr_wrap_cloud flat;
 	mr_mesh m;
 
-	face_sides(cloud, own);
-	MR_TRY(make_sheet(ctx, cloud, o, own, &flat, lids, &m));
-	MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, d));
+	MR_TRY(make_sheet(ctx, f, o, lids, &m));
+	MR_TRY(mr_wrap_settle_open(ctx, &f->cloud, o, &m, d));
 	m = mr_dyn_view(d, "control");
 	openings = lids->openings;
-	MR_TRY(mr_wrap_cut(ctx, cloud, o->lids, false, &m, lids));
-	return lids->openings > openings ? mr_wrap_settle_open(ctx, cloud, o, &m, d) : MR_OK;
+	MR_TRY(mr_wrap_cut(ctx, &f->cloud, o->lids, false, &m, lids));
+	return lids->openings > openings ? mr_wrap_settle_open(ctx, &f->cloud, o, &m, d) : MR_OK;
 }
 
 static void
@@ -454,18 +474,18 @@ join(mr_ctx *ctx, const mr_dyn *d, size_t n, mr_dyn *out)
 }
 
 mr_status
-mr_wrap_sheets(
-    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_wrap_fields *f, mr_wrap *w)
+mr_wrap_fields(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_wrap_field *field,
+    size_t fields, mr_wrap *w)
 {
-	mr_dyn *d = MR_NEW(ctx, f->layers, mr_dyn);
+	mr_dyn *d = MR_NEW(ctx, fields, mr_dyn);
 
-	for (size_t i = 0; i < f->layers; i++) {
+	for (size_t i = 0; i < fields; i++) {
 		mr_wrap_lids lids = { 0 };
-		MR_TRY(wrap_field(ctx, &f->layer[i], o, f->axis, &lids, &d[i]));
+		MR_TRY(wrap_field(ctx, &field[i], o, &lids, &d[i]));
 		add_lids(&lids, &w->lids);
 	}
 	w->d = d[0];
-	if (f->layers > 1)
-		MR_TRY(join(ctx, d, f->layers, &w->d));
+	if (fields > 1)
+		MR_TRY(join(ctx, d, fields, &w->d));
 	return mr_wrap_assess(ctx, cloud, w);
 }

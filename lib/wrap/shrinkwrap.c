@@ -94,15 +94,16 @@ wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_w
 
 /* Height fields as such, unless they are to be closed. */
 static mr_status
-wrap_by_method(mr_ctx *ctx, mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
+wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
-	mr_wrap_fields fields = { .layers = 0 };
+	mr_wrap_field *field;
+	size_t fields = 0;
 
 	if (o->method == MR_WRAP_AUTO && o->lids != MR_LIDS_ALL)
-		MR_TRY(mr_wrap_find_fields(ctx, cloud, &fields));
-	if (fields.layers > 0) {
+		MR_TRY(mr_wrap_find_fields(ctx, cloud, &field, &fields));
+	if (fields > 0) {
 		c->found.method = SHEET;
-		return mr_wrap_sheets(ctx, cloud, o, &fields, c);
+		return mr_wrap_fields(ctx, cloud, o, field, fields, c);
 	}
 	if (cloud->flat)
 		return mr_fail(ctx, MR_EMESH, "%zu points lie in a plane: no surface closes around them",
@@ -186,7 +187,7 @@ put_result(const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 /* ---- the whole ---- */
 
 static mr_status
-wrap(mr_ctx *ctx, mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out, mr_wrap_result *result)
+wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out, mr_wrap_result *result)
 {
 	mr_wrap c;
 
