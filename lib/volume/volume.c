@@ -148,13 +148,7 @@ orient_by_sides(mr_ctx *ctx, volume *v)
 	size_t untold;
 
 	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
-	if (turn_outward(&v->s))
-		mr_found(
-		    ctx, &(mr_finding){ .kind = MR_GUESSED,
-			     .layer = "points",
-			     .what = v->side.normals
-		                         ? "the normals of the points point inward, and are turned over"
-		                         : "the points were seen from within: their surface faces away" });
+	v->found.turned = turn_outward(&v->s);
 	return MR_OK;
 }
 
@@ -634,6 +628,7 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	if (opts->grid > CELLS_MOST)
 		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
 	mr_unmeasured(&v.found, sizeof v.found);
+	v.found.turned = false;
 	v.side.toward = NULL;
 	MR_TRY(take_points(ctx, point, n, opts, &places, &v));
 	MR_TRY(begin(ctx, opts, places, &v));

@@ -165,6 +165,27 @@ report_cover(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	mr_gaps_report(ctx, "control", &c->cover.gaps);
 }
 
+/* Of an open surface both sides are outside, and it faces the points' own; a closed one is outward. */
+static void
+take_side(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_mesh *m)
+{
+	mr_tri *t;
+
+	if (c->lids.openings == 0) {
+		mr_found(
+		    ctx, &(mr_finding){ .kind = MR_GUESSED,
+			     .layer = "points",
+			     .what = cloud->sides->normals
+		                         ? "the normals of the points point inward, and are turned over"
+		                         : "the points were seen from within: their surface faces away" });
+		return;
+	}
+	t = MR_NEW(ctx, m->nf, mr_tri);
+	for (size_t f = 0; f < m->nf; f++)
+		t[f] = (mr_tri){ { m->t[f].v[0], m->t[f].v[2], m->t[f].v[1] } };
+	m->t = t;
+}
+
 static void
 put_result(const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 {
@@ -198,6 +219,8 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	report_topology(ctx, cloud, &c);
 	put_result(cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
+	if (c.found.method == MR_WRAP_VOLUME && c.found.volume.turned)
+		take_side(ctx, cloud, &c, out);
 	return MR_OK;
 }
 

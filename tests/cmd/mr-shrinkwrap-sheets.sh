@@ -42,3 +42,16 @@ mr-import c.xyz | mr-shrinkwrap -q | mr-info -l control | sed -n 's/^ *topology 
 cloud 5 0 60 1 >c.xyz
 echo sides of the normals:
 mr-import c.xyz | mr-shrinkwrap | mr-normals -l control | mr-export -q -l control -f xyz - | awk '!/#/ { n[$6 > 0 ? "up" : "down"]++ } END { for (i in n) print i }'
+echo an open book, its normals inward:
+awk 'BEGIN {
+	print "# x y z nx ny nz"
+	for (i = 0; i < 3600; i++) {
+		x = int(i / 60) + 0.3 * sin(i * i)
+		y = i % 60 + 0.3 * cos(i * i)
+		print x, y, 0, 0, 0, 1
+		print 0.77 * x, y, 0.64 * x, 0.64, 0, -0.77
+	}
+}' >book.xyz
+mr-import book.xyz | mr-shrinkwrap -o book.mrs
+mr-info -l control book.mrs | sed -n 's/^ *topology *//p'
+mr-normals -l control -i book.mrs | mr-export -q -l control -f xyz - | awk '!/#/ && $3 < 1 && $1 > 20 { n[$6 > 0 ? "up" : "down"]++ } END { for (i in n) print i }'
