@@ -186,12 +186,12 @@ awk -F '\t' -v kinds="$KINDS" -v peers="$PEERS" '
 worst() { # kind
 	awk -F '\t' -v kind="$1" '
 		$2 == kind && $3 == "mr" && match($5, /"over":[^,]*/) { print substr($5, RSTART + 7, RLENGTH - 7), $1 }' rows |
-	    sort -rg | head -n 8 | cut -d ' ' -f 2
+	    sort -rg | head -n 16 | cut -d ' ' -f 2
 }
 peer=$(echo "$PEERS" | awk '{ print $1 }')
 export PEERS="$peer"
-columns=2
-[ -z "$peer" ] || columns=3
+columns=4 # two models side by side
+[ -z "$peer" ] || columns=6
 for kind in $KINDS; do
 	for name in $(worst "$kind"); do
 		[ -z "$peer" ] || ! is_old "$out/close/$name-$kind-$peer" "$out/close/$name-$kind-mr" ||
