@@ -11,7 +11,7 @@ static const cmd_opt table[] = {
 	    "most distance to the planes of what is merged; 0: no such limit", NULL },
 	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },
 	{ 0, "creases", CMD_FLAG, &opts.creases, 0, 0, NULL,
-	    "keep the sharp edges that the points show, or say why not", NULL },
+	    "keep the sharp edges that points or a mesh show, or say why not", NULL },
 	{ 0, "smooth", CMD_FLAG, &opts.smooth, 0, 0, NULL, "keep no sharp edges", NULL },
 	{ 't', "to", CMD_TEXT, &opts.to, 0, 0, "LAYER", "write the result as that layer; the surface stays",
 	    NULL },
@@ -45,8 +45,10 @@ prepare(cmd *c)
 	MR_TRY(check_name(c, "--to", opts.to));
 	MR_TRY(check_name(c, "--map", opts.map));
 	MR_TRY(cmd_idle(c, "map", opts.to, "with --to, which keeps the surface"));
-	MR_TRY(cmd_idle(c, "creases", opts.to, "with --to"));
-	MR_TRY(cmd_idle(c, "smooth", opts.to, "with --to"));
+	if (opts.to && strcmp(opts.to, "control")) {
+		MR_TRY(cmd_idle(c, "creases", true, "with --to another layer"));
+		MR_TRY(cmd_idle(c, "smooth", true, "with --to another layer"));
+	}
 	MR_TRY(cmd_idle(c, "smooth", opts.creases, "with --creases"));
 	return cmd_idle(c, "ratio", opts.faces > 0, "with --faces");
 }

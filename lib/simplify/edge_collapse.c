@@ -108,14 +108,18 @@ static mr_merge_sum
 sum_of(const mr_dyn *d, const mr_site *site, uint32_t h)
 {
 	const mr_site *a = &site[d->v[h]], *b = &site[mr_dyn_to(d, h)];
-	mr_merge_sum s = { .ab = mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]), .rim = a->rim || b->rim };
+	int kind_a = d->kind[d->v[h]], kind_b = d->kind[mr_dyn_to(d, h)];
+	mr_merge_sum s = { .ab = mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]),
+		.rim = a->rim || b->rim || kind_a != MR_SMOOTH || kind_b != MR_SMOOTH };
 	mr_quadric qb = mr_quadric_moved(&b->q, mr_mul(-1, s.ab));
 	double trace;
 
 	s.q = mr_quadric_sum(&a->q, &qb);
-	s.x = mr_mul(a->rim == b->rim ? 0.5 : a->rim ? 0 : 1, s.ab);
+	kind_a += a->rim;
+	kind_b += b->rim;
+	s.x = mr_mul(kind_a == kind_b ? 0.5 : kind_a > kind_b ? 0 : 1, s.ab);
 	trace = s.q.xx + s.q.yy + s.q.zz;
-	if (trace > 0)
+	if (trace > 0 && d->kind[d->v[h]] != MR_CORNER && d->kind[mr_dyn_to(d, h)] != MR_CORNER)
 		s.factor = mr_quadric_factor_of(&s.q, FLAT * trace);
 	return s;
 }

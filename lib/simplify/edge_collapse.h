@@ -30,7 +30,7 @@ typedef struct mr_merge_sum {
 	mr_quadric q;
 	mr_quadric_factor factor;
 	mr_v3 ab, x; /* the edge; the offset that about minimizes it */
-	bool rim;    /* an end is on the boundary */
+	bool rim;    /* an end is on the boundary, or a curve */
 } mr_merge_sum;
 
 typedef struct mr_merge {

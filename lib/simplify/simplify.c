@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "simplify/bucket_queue.h"
 #include "simplify/edge_collapse.h"
+#include "simplify/sharp_edges.h"
 
 /* The shape that needles may have where the faces asked for cannot be had otherwise: thin plates, say. */
 static const double LAST_NEEDLE = 0.01;
@@ -125,6 +126,7 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 	mr_quadric qa = mr_quadric_moved(&s->site[a].q, mr_sub(m->p, d->p[a]));
 	mr_quadric qb = mr_quadric_moved(&s->site[b].q, mr_sub(m->p, d->p[b]));
 
+	d->kind[b] = d->kind[a] > d->kind[b] ? d->kind[a] : d->kind[b];
 	mr_dyn_collapse(d, h, m->p);
 	s->site[b] = (mr_site){ mr_quadric_sum(&qa, &qb), fmin(s->site[a].room, s->site[b].room),
 		s->site[a].rim || s->site[b].rim };
@@ -149,6 +151,21 @@ room_at(const simplifier *s, uint32_t h)
 	return s->scale * (s->most ? fmin(s->limit, room) : s->limit);
 }
 
+/* Whether the ends of h can be merged; the one that lives has the higher kind of theirs. */
+static bool
+can_collapse(const simplifier *s, uint32_t h)
+{
+	uint8_t *a = &s->d.kind[s->d.v[h]], *b = &s->d.kind[mr_dyn_to(&s->d, h)], kind_a = *a, kind_b = *b;
+	bool can;
+
+	*a = kind_a < kind_b ? kind_a : kind_b;
+	*b = kind_a < kind_b ? kind_b : kind_a;
+	can = mr_dyn_can_collapse(&s->d, h, s->mark);
+	*a = kind_a;
+	*b = kind_b;
+	return can;
+}
+
 /* Looks at the edge that came up: merges it, puts it back, or gives it up. */
 static void
 serve(simplifier *s, uint32_t h, uint32_t bucket)
@@ -170,7 +187,7 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		enqueue(s, h, now);
 		return;
 	}
-	if (mr_dyn_can_collapse(&s->d, h, s->mark) && mr_merge_is_sound(&s->d, &m, s->needle))
+	if (can_collapse(s, h) && mr_merge_is_sound(&s->d, &m, s->needle))
 		merge(s, h, &m);
 }
 
@@ -216,7 +233,7 @@ add_face(simplifier *s, uint32_t f, mr_v3 normal, double area)
 	}
 }
 
-/* Adds the plane through boundary edge h that stands upright on its face to the ends. */
+/* Adds the plane through boundary or sharp edge h that stands upright on its face to the ends. */
 static void
 add_rim(simplifier *s, uint32_t h, mr_v3 normal, double area_weight)
 {
@@ -225,7 +242,8 @@ add_rim(simplifier *s, uint32_t h, mr_v3 normal, double area_weight)
 	mr_v3 edge = mr_sub(d->p[b], d->p[a]), side = mr_unit(mr_cross(normal, edge));
 	double weight = area_weight * s->o->boundary * mr_norm2(edge) / 2;
 
-	s->site[a].rim = s->site[b].rim = true;
+	if (d->twin[h] == MR_NONE)
+		s->site[a].rim = s->site[b].rim = true;
 	mr_quadric_add_plane(&s->site[a].q, side, weight);
 	mr_quadric_add_plane(&s->site[b].q, side, weight);
 }
@@ -250,7 +268,7 @@ add_quadrics(simplifier *s)
 		double weight = weight_of(s, f);
 		add_face(s, f, normal, weight * mr_norm(cross) / 2);
 		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
-			if (d->twin[h] == MR_NONE)
+			if (d->twin[h] == MR_NONE || mr_dyn_on_curve(d, h))
 				add_rim(s, h, normal, weight);
 	}
 }
@@ -286,6 +304,18 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 	return MR_OK;
 }
 
+/* A mesh with fewer faces than are asked for keeps all sharp edges; of others those are noise that are
+ * shorter than two edges of the result. */
+static void
+find_sharp_edges(simplifier *s, const mr_mesh *m)
+{
+	double area = s->scale * s->scale * mr_mesh_area(s->ctx, m);
+	size_t most = s->most > s->target ? s->most : s->target;
+
+	mr_sharp_edges(
+	    s->ctx, &s->d, s->o->creases || s->faces <= most ? 0 : 3 * sqrt(2.3 * area / (double)(most + 1)));
+}
+
 static mr_status
 begin(simplifier *s, const mr_mesh *m)
 {
@@ -295,6 +325,8 @@ begin(simplifier *s, const mr_mesh *m)
 	s->mark = MR_NEW_ZERO(s->ctx, s->d.nv, uint8_t);
 	s->bucket = MR_NEW(s->ctx, 3 * s->d.nf, uint16_t);
 	s->faces = s->d.nf;
+	if (s->o->sharp)
+		find_sharp_edges(s, m);
 	for (uint32_t v = 0; v < s->d.nv; v++)
 		s->site[v].room = s->o->room ? s->o->room[s->d.at[v]] : INFINITY;
 	add_quadrics(s);
@@ -324,17 +356,26 @@ finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
 	mr_v3 *p = MR_NEW(s->ctx, d->nv - s->merges, mr_v3);
 	mr_tri *t = MR_NEW(s->ctx, s->faces, mr_tri);
 	uint32_t *number = MR_NEW(s->ctx, d->nv, uint32_t), nv = 0;
+	uint8_t *sharp = d->curve ? MR_NEW(s->ctx, 3 * d->nf, uint8_t) : NULL;
 	size_t nf = 0;
 
+	if (sharp)
+		mr_mark_sharp_edges(d, sharp);
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (s->onto[v] == v) {
 			number[v] = nv;
 			p[nv++] = mr_mul(1 / s->scale, d->p[v]);
 		}
-	for (size_t f = 0; f < d->nf; f++)
-		if (!mr_dyn_face_dead(d, f))
-			t[nf++] = (mr_tri){ { number[d->v[3 * f]], number[d->v[3 * f + 1]],
-			    number[d->v[3 * f + 2]] } };
+	for (size_t f = 0; f < d->nf; f++) {
+		if (mr_dyn_face_dead(d, f))
+			continue;
+		if (sharp)
+			memmove(sharp + 3 * nf, sharp + 3 * f, 3);
+		t[nf++] = (mr_tri){ { number[d->v[3 * f]], number[d->v[3 * f + 1]],
+		    number[d->v[3 * f + 2]] } };
+	}
+	if (s->o->sharp)
+		*s->o->sharp = sharp;
 	number_onto(s, m->nv, number, onto);
 	*out = (mr_mesh){ m->name, p, t, nv, nf };
 }

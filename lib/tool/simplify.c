@@ -14,6 +14,11 @@ enum { FACES_A_FACE = 10 };
  * be webbed where it joins. */
 static const double OFF = 0.5;
 
+/* Of the diagonal, that a control mesh may be off a mesh by default, as long as it has no more faces than a
+ * mesh that is its own. */
+static const double NEAR = 5e-4;
+enum { OWN = 2000 };
+
 /* The points that a control mesh is for: those of the frame, if there are any. */
 static mr_status
 read_points(mr_ctx *ctx, mr_frame *f, const char *result_layer, mr_simplify_cloud *c)
@@ -49,6 +54,19 @@ limit_by_points(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_si
 	o->most = mr_simplify_most_faces_for(c->n);
 }
 
+/* The limits of a control mesh for a mesh. */
+static void
+limit_by_mesh(mr_ctx *ctx, const mr_mesh *m, mr_simplify_opts *o)
+{
+	double *room = MR_NEW(ctx, m->nv, double), error = NEAR * mr_mesh_diagonal(m);
+
+	for (size_t v = 0; v < m->nv; v++)
+		room[v] = error;
+	o->room = room;
+	o->faces = mr_simplify_faces_for(m->nv);
+	o->most = o->faces > OWN ? o->faces : OWN;
+}
+
 /* Where to stop where nothing says so.  A control mesh is made for the points, or for the mesh that it comes
  * from. */
 static void
@@ -56,9 +74,10 @@ limit_by_frame(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_sim
 {
 	if (c->n > 0)
 		limit_by_points(ctx, m, c, o);
+	else if (o->to && !strcmp(o->to, "control"))
+		limit_by_mesh(ctx, m, o);
 	else
-		o->faces = o->to && !strcmp(o->to, "control") ? mr_simplify_faces_for(m->nv)
-		                                              : m->nf / FACES_A_FACE;
+		o->faces = m->nf / FACES_A_FACE;
 }
 
 static mr_status
@@ -105,21 +124,28 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 
+/* Whether it makes the control mesh of a mesh, whose faces tell its sharp edges. */
+static bool
+of_mesh(const mr_simplify_opts *o)
+{
+	return o->to && !strcmp(o->to, "control");
+}
+
 /* Whether points show sharp edges that are to be kept.  MR_EMISSING where these are to be but cannot. */
 static mr_status
 may_be_sharp(
     mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, const mr_simplify_opts *o, bool *sharp)
 {
 	const double noisy = 0.1; /* spacings: clean clouds have up to 0.08 */
-	bool can = !o->to && !strcmp(m->name, "control") && c->n > 0,
+	bool can = !o->to && !strcmp(m->name, "control") && c->n > 0, mesh = of_mesh(o),
 	     clean = c->sampling.noise < noisy * c->sampling.usual;
 
 	*sharp = can && !o->smooth && clean;
-	if (o->creases && !can)
+	if (o->creases && !can && !mesh)
 		return mr_fail(ctx, MR_EMISSING,
 		    "%s: sharp edges are kept of layer control by layer points, and one of them is not there",
 		    m->name);
-	if (o->creases && !clean)
+	if (o->creases && !clean && !mesh)
 		mr_found(ctx, &(mr_finding){
 				  .kind = MR_LIMIT, .what = "the points are too noisy to show sharp edges" });
 	return MR_OK;
@@ -136,6 +162,16 @@ put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_simplify_clou
 }
 
 static mr_status
+put_marks(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const uint8_t *mark, size_t *count)
+{
+	*count = 0;
+	for (size_t h = 0; mark && h < 3 * out->nf; h++)
+		*count += mark[h];
+	*count /= 2;
+	return mark ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
+}
+
+static mr_status
 simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 {
 	static const char *const reads[] = { "control", "base", "mesh", NULL };
@@ -143,6 +179,7 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	mr_mesh m, surface, out;
 	const char *layer;
 	uint32_t *onto;
+	uint8_t *marks = NULL;
 	bool look, sharp;
 
 	MR_TRY(mr_check_number(ctx, "ratio", o.ratio, 0, 1));
@@ -166,11 +203,15 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 		MR_TRY(mr_sharpen(ctx, &m, &points, p, &sharp));
 		surface.p = sharp ? p : m.p;
 	}
+	if (of_mesh(&o) && !o.smooth)
+		o.sharp = &marks;
 	MR_TRY(mr_simplify(ctx, &surface, &o, &out, onto, r));
 	r->creases = look || o.creases ? 0 : MR_UNKNOWN;
 	if (points.n > 0)
 		MR_TRY(mr_sample_report_move(ctx, f, "points"));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
+	if (o.sharp)
+		MR_TRY(put_marks(ctx, f, &out, marks, &r->creases));
 	if (sharp)
 		MR_TRY(put_creases(ctx, f, &out, &points, &r->creases));
 	if (o.map && !o.to)

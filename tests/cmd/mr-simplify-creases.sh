@@ -44,5 +44,5 @@ figure stats creases
 echo 'refusals'
 mr-make torus | mr-simplify --creases
 echo "exit $?"
-mr-simplify --creases --to control wrap.mrs
+mr-simplify --creases --to base wrap.mrs
 echo "exit $?"

@@ -101,6 +101,44 @@ vertices_lie_where_they_were_merged(void **state)
 	}
 }
 
+/* The length of the sharp edges that are marked in a control mesh of a solid. */
+static double
+sharp_length(mr_solid solid, size_t vertices, size_t faces)
+{
+	mr_make_opts shape = MR_MAKE_DEFAULTS;
+	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
+	double length = 0;
+	uint8_t *sharp;
+	uint32_t *onto;
+	mr_mesh m, out;
+
+	shape.solid = solid;
+	shape.vertices = vertices;
+	assert_int_equal(mr_solid_make(&ctx, &shape, &m), MR_OK);
+	o.faces = faces;
+	o.sharp = &sharp;
+	onto = MR_NEW(&ctx, m.nv, uint32_t);
+	assert_int_equal(mr_simplify(&ctx, &m, &o, &out, onto, NULL), MR_OK);
+	for (uint32_t h = 0; sharp && h < 3 * out.nf; h++)
+		if (sharp[h])
+			length += mr_dist(out.p[mr_he_from(&out, h)], out.p[mr_he_to(&out, h)]) / 2;
+	return length;
+}
+
+static void
+sharp_edges_of_a_mesh_are_kept(void **state)
+{
+	static const size_t faces[] = { 100, 300, 1000, 5000 };
+
+	(void)state;
+	for (int i = 0; i < 4; i++) {
+		double rims = sharp_length(MR_CYLINDER, 6000, faces[i]);
+		assert_true(fabs(sharp_length(MR_CUBE, 6000, faces[i]) - 24) < 1e-9);
+		assert_true(fabs(rims - 4 * MR_PI) < 0.2 * MR_PI);
+		assert_true(sharp_length(MR_SPHERE, 6000, faces[i]) == 0);
+	}
+}
+
 /* Simplifies the solid, its height scaled and a bowl added, to `faces` and maps it. */
 static void
 map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_mesh *out, mr_places *map)
@@ -195,6 +233,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(queue_serves_the_lowest_bucket, setup, teardown),
 		cmocka_unit_test_setup_teardown(quadric_is_the_squared_distance, setup, teardown),
 		cmocka_unit_test_setup_teardown(vertices_lie_where_they_were_merged, setup, teardown),
+		cmocka_unit_test_setup_teardown(sharp_edges_of_a_mesh_are_kept, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_are_the_nearest, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_stay_on_their_side, setup, teardown),
 		cmocka_unit_test_setup_teardown(edges_beyond_the_points_are_not_sharp, setup, teardown),
