@@ -52,6 +52,6 @@ awk 'BEGIN {
 		print 0.77 * x, y, 0.64 * x, 0.64, 0, -0.77
 	}
 }' >book.xyz
-mr-import book.xyz | mr-shrinkwrap -o book.mrs
+mr-import book.xyz | mr-shrinkwrap -q -o book.mrs
 mr-info -l control book.mrs | sed -n 's/^ *topology *//p'
-mr-normals -l control -i book.mrs | mr-export -q -l control -f xyz - | awk '!/#/ && $3 < 1 && $1 > 20 { n[$6 > 0 ? "up" : "down"]++ } END { for (i in n) print i }'
+mr-normals -l control book.mrs | mr-export -q -l control -f xyz - | awk '!/#/ && $3 < 1 && $1 > 20 { n[$6 > 0 ? "up" : "down"]++ } END { for (i in n) print i }'
