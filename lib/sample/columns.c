@@ -13,6 +13,8 @@ typedef struct job {
 	const double *dist2;
 	uint32_t *parent; /* NEAREST of each vertex from the first, and their weights, 0 of none */
 	double *weight;
+	const mr_carried *column; /* of those that are means */
+	double *robust;           /* the weights for it */
 } job;
 
 /* Squared distances below this share of the farthest that is looked at are as good as none. */
@@ -50,6 +52,61 @@ weigh_vertices(void *arg, size_t begin, size_t end)
 		weigh(j, i, j->parent + i * NEAREST, j->weight + i * NEAREST);
 }
 
+/* What is farther from the median than so many times as half of the points are, is a spot. */
+static const double FAR = 6;
+
+static void
+sort(double x[NEAREST], size_t n)
+{
+	for (size_t i = 1; i < n; i++) {
+		double a = x[i];
+		size_t k = i;
+		for (; k > 0 && x[k - 1] > a; k--)
+			x[k] = x[k - 1];
+		x[k] = a;
+	}
+}
+
+/* Adds to how far each is from the median that of component k. */
+static void
+add_distances(const mr_carried *c, size_t k, const uint32_t parent[NEAREST], const double weight[NEAREST],
+    double far[NEAREST])
+{
+	double x[NEAREST], sorted[NEAREST];
+	size_t n = 0;
+
+	for (size_t i = 0; i < NEAREST; i++) {
+		size_t at = parent[i] * c->shape.components + k;
+		x[i] = c->shape.type == 'd' ? ((const double *)c->from)[at] : ((const uint8_t *)c->from)[at];
+		if (weight[i] > 0 && isfinite(x[i]))
+			sorted[n++] = x[i];
+	}
+	sort(sorted, n);
+	for (size_t i = 0; i < NEAREST && n > 0; i++)
+		far[i] += isfinite(x[i]) ? fabs(x[i] - sorted[n / 2]) : 0;
+}
+
+static void
+leave_out_spots(void *arg, size_t begin, size_t end)
+{
+	const job *j = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		double *weight = j->robust + i * NEAREST, far[NEAREST] = { 0 }, sorted[NEAREST];
+		size_t n = 0;
+		memcpy(weight, j->weight + i * NEAREST, NEAREST * sizeof *weight);
+		for (size_t k = 0; k < j->column->shape.components; k++)
+			add_distances(j->column, k, j->parent + i * NEAREST, weight, far);
+		for (size_t k = 0; k < NEAREST; k++)
+			if (weight[k] > 0)
+				sorted[n++] = far[k];
+		sort(sorted, n);
+		for (size_t k = 0; k < NEAREST; k++)
+			if (far[k] > FAR * sorted[n / 2])
+				weight[k] = 0;
+	}
+}
+
 static mr_status
 carry(mr_ctx *ctx, job *j, const mr_v3 *vertex, const mr_carried *column, size_t count)
 {
@@ -59,15 +116,22 @@ carry(mr_ctx *ctx, job *j, const mr_v3 *vertex, const mr_carried *column, size_t
 
 	j->parent = MR_NEW(ctx, chunk * NEAREST, uint32_t);
 	j->weight = MR_NEW(ctx, chunk * NEAREST, double);
+	j->robust = MR_NEW(ctx, chunk * NEAREST, double);
 	j->nearest = nearest;
 	j->dist2 = dist2;
 	for (j->first = 0; j->first < nv; j->first += chunk) {
 		size_t n = nv - j->first < chunk ? nv - j->first : chunk;
 		MR_TRY(mr_near_query(ctx, j->c->near, vertex + j->first, n, j->k, nearest, dist2));
 		mr_parallel(ctx, n, GRAIN, weigh_vertices, j);
-		for (size_t i = 0; i < count; i++)
-			mr_carried_make(
-			    ctx, &column[i], 1, j->first, (mr_rows_from){ n, NEAREST, j->parent, j->weight });
+		for (size_t i = 0; i < count; i++) {
+			mr_rows_from from = { n, NEAREST, j->parent, j->weight };
+			if (column[i].kind == MR_MEAN) {
+				j->column = &column[i];
+				mr_parallel(ctx, n, GRAIN, leave_out_spots, j);
+				from.weight = j->robust;
+			}
+			mr_carried_make(ctx, &column[i], 1, j->first, from);
+		}
 	}
 	return MR_OK;
 }

@@ -99,3 +99,9 @@ sys.stdout.buffer.write(records.changed(open(sys.argv[1], 'rb').read(), half))
 END
 mr-decode short.mrs -o out.mrs
 echo "exit $?"
+echo a dark point among a hundred leaves no spot:
+mr-make sphere --points 4000 | mr-export -q -l points -f xyz - | awk '
+	BEGIN { print "ply\nformat ascii 1.0\nelement vertex 4000\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header" }
+	!/#/ { print $1, $2, $3, NR % 100 ? int(200 + 50 * $1) " 150 120" : "0 0 0" }' >spots.ply
+mr-import --points spots.ply | mr-shrinkwrap -q | mr-simplify -q | mr-fit -q | mr-sample -q | mr-decode | mr-export -q -l mesh -f off - |
+	awk 'NF == 7 && ($4 < 140 || $5 < 140) { n++ } END { print n + 0 }'
