@@ -52,10 +52,13 @@ measure(const mr_dyn *d, uint32_t h, piece *p)
 		}
 }
 
+/* The shorter, the sharper it must be beside what is around: small bores and pins are. */
 static bool
 counts(const piece *p, double length)
 {
-	return p->length >= length && p->around * (double)p->n <= AROUND * p->sharp * (double)p->beside;
+	double most = AROUND * fmin(1, p->length / length);
+
+	return p->around * (double)p->n <= most * p->sharp * (double)p->beside;
 }
 
 static void

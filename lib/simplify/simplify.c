@@ -304,8 +304,8 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 	return MR_OK;
 }
 
-/* A mesh with fewer faces than are asked for keeps all sharp edges; of others those are noise that are
- * shorter than two edges of the result. */
+/* A mesh with fewer faces than are asked for keeps all; of others what is shorter than three edges of the
+ * result is doubted. */
 static void
 find_sharp_edges(simplifier *s, const mr_mesh *m)
 {
