@@ -192,11 +192,11 @@ count_over(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, u
 	MR_TRY(mr_near_query(ctx, flat->near, p, n, PAIRS, nearest, dist2));
 	for (size_t i = 0; i < n; i++) {
 		uint32_t root = mr_sets_root(set, at[i]);
-		double own = cloud->own[at[i]];
 		bool is_over = false;
 		for (size_t k = i * PAIRS; k < (i + 1) * PAIRS && nearest[k] != MR_NONE; k++) {
 			uint32_t other = mr_sets_root(set, nearest[k]);
-			is_over |= dist2[k] < own * own && other != root && size[other] >= PLACES_LEAST;
+			double reach = fmax(cloud->own[at[i]], cloud->own[nearest[k]]);
+			is_over |= dist2[k] < reach * reach && other != root && size[other] >= PLACES_LEAST;
 		}
 		over[root] += is_over;
 	}
