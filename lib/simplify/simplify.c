@@ -31,8 +31,10 @@ typedef struct simplifier {
 	double limit;      /* error to stop at; infinite: no such limit */
 	size_t most;       /* faces for whose sake more is merged than there is room for */
 	size_t faces, merges;
-	double error2; /* greatest of the merges done */
-	double needle; /* least shape of a face */
+	double longest; /* edge to be merged, as long as there is room: beside long ones short ones of a
+	                   crease swing */
+	double error2;  /* greatest of the merges done */
+	double needle;  /* least shape of a face */
 } simplifier;
 
 /* The half-edge that an edge is known by. */
@@ -180,7 +182,8 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		enqueue(s, h, now);
 		return;
 	}
-	if (!mr_merge_finish(&s->d, s->site, &m) || m.error2 > limit * limit)
+	if ((s->most && mr_norm(m.sum.ab) > s->longest) || !mr_merge_finish(&s->d, s->site, &m) ||
+	    m.error2 > limit * limit)
 		return;
 	now = mr_bucket_of((float)m.cost);
 	if (now > bucket) {
@@ -309,11 +312,11 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 static void
 find_sharp_edges(simplifier *s, const mr_mesh *m)
 {
-	double area = s->scale * s->scale * mr_mesh_area(s->ctx, m);
 	size_t most = s->most > s->target ? s->most : s->target;
+	double edge = s->scale * sqrt(2.3 * mr_mesh_area(s->ctx, m) / (double)(most + 1));
 
-	mr_sharp_edges(
-	    s->ctx, &s->d, s->o->creases || s->faces <= most ? 0 : 3 * sqrt(2.3 * area / (double)(most + 1)));
+	if (mr_sharp_edges(s->ctx, &s->d, s->o->creases || s->faces <= most ? 0 : 3 * edge))
+		s->longest = 1.5 * edge;
 }
 
 static mr_status
@@ -388,6 +391,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 	simplifier s = { .ctx = ctx,
 		.o = opts,
 		.needle = MR_NEEDLE,
+		.longest = INFINITY,
 		.scale = diagonal > 0 ? ldexp(1, -(int)fmax(-1000, ilogb(diagonal)))
 		                      : 1, /* a number for any */
 		.target = opts->faces ? opts->faces : (size_t)ceil(opts->ratio * (double)m->nf),
