@@ -17,8 +17,8 @@ mr-encode -l mesh
 mr-decode -l mesh
 mr-equalize -l mesh
 mr-map -w map -l control
-mr-simplify --creases --to control
-mr-simplify --smooth --to control
+mr-simplify --creases --to base
+mr-simplify --smooth --to base
 mr-simplify --smooth --creases
 mr-import --points --repair
 mr-remesh -L 2% -r 1
