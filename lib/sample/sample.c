@@ -196,7 +196,7 @@ static mr_status
 find_heights(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_sample_opts *opts,
     bool robust, double *height, mr_sample_result *r)
 {
-	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
+	mr_fit_weights weights = { .fair = 0.2, .pull = 0.3, .scale = 5e-3 * c->diagonal, .steps = 10 };
 	size_t distinct = mr_near_distinct(c->near),
 	       k = opts->neighbours < distinct ? opts->neighbours : distinct;
 	mr_mark mark = mr_mark_take(ctx);

@@ -10,8 +10,8 @@ enum { ROUNDS = 4 };
  * them, and a fit to points as few would have to blow them up.
  */
 enum { POINTS_A_FACE = 32, LIMBS = 300, LEAST_POINTS_A_FACE = 4, ROUND = 20 };
-/* The faces that a thin or jagged surface may have. */
-enum { MOST_POINTS_A_FACE = 8 };
+/* The faces that a thin or jagged surface may have: on level 3, twice as many vertices as there are points. */
+enum { MOST_POINTS_A_FACE = 17 };
 
 /* Densities beyond these shares of the mean are cut off: gaps and outliers are no surface. */
 static const double LEAST = 0.1, MOST = 10;
