@@ -1,201 +1,631 @@
-/* An edge is sharp where two planes meet in it that the points along it lie on. */
+/*
+ * Sharp edges: where vertices on either side of one see different planes, the surface is cut between them and
+ * the cut goes to where their planes meet: Kobbelt, Botsch, Schwanecke, Seidel 2001 (Feature sensitive
+ * surface extraction), Ju, Losasso, Schaefer, Warren 2002 (Dual contouring).
+ */
 #include "simplify/creases.h"
 
 #include "base/disjoint_sets.h"
-#include "base/sort.h"
+#include "mesh/guarded_move.h"
 #include "space/local_planes.h"
 
-/* Points that far from an edge show its planes. */
-enum { NEAREST = 40, ROUNDS = 8, LEAST = 5 };
-static const double REACH = 4;
-
-/* How far its ends are from both planes, at most. */
-static const double OFF = 1.5;
-
-/* Degrees between the planes; a quarter of that between the faces of 1,988 of 2,000 sharp edges. */
-static const double ANGLE = 40;
-
-/* Of a curve along which pieces are sharp, edges: of the bunny, igea and the armadillo none has more. */
-enum { PIECE = 8 };
-
-typedef struct plane {
-	mr_v3 at, normal;
-	double squares; /* of the distances of its n points */
-	size_t n;
-} plane;
-
-static double
-distance(const plane *p, mr_v3 q)
-{
-	return fabs(mr_dot(mr_sub(q, p->at), p->normal));
-}
-
-/* The plane of least squares, its normal on the side that it was; false where the points make none. */
-static bool
-fit(const mr_v3 *p, size_t n, double width, plane *out)
-{
-	double sum[6], value[3];
-	mr_v3 vector[3], mean = { 0, 0, 0 };
-
-	if (n < LEAST)
-		return false;
-	for (size_t i = 0; i < n; i++)
-		mean = mr_axpy(1 / (double)n, p[i], mean);
-	mr_covariance(p, n, 1 / width, sum);
-	mr_eigen_sym3(sum, value, vector);
-	if (value[1] < 0.1 * (double)n) /* a row */
-		return false;
-	if (mr_dot(vector[0], out->normal) < 0)
-		vector[0] = mr_mul(-1, vector[0]);
-	*out = (plane){ mean, vector[0], fmax(0, value[0]) * width * width, n };
-	return true;
-}
-
-/* Points to the nearer plane, planes to their points, by turns (Bradley, Mangasarian 2000: k-plane
- * clustering); what is far from both is of neither.  work: n. */
-static bool
-fit_two(const mr_v3 *p, size_t n, double width, plane two[2], mr_v3 *work)
-{
-	double far = width;
-
-	for (int round = 0; round < ROUNDS; round++) {
-		size_t a = 0, b = n;
-		for (size_t i = 0; i < n; i++) {
-			double x = distance(&two[0], p[i]), y = distance(&two[1], p[i]);
-			if (x < y && x <= far)
-				work[a++] = p[i];
-			else if (y <= far)
-				work[--b] = p[i];
-		}
-		if (!fit(work, a, width, &two[0]) || !fit(work + b, n - b, width, &two[1]))
-			return false;
-		far = fmax(
-		    0.3 * width, 3 * sqrt((two[0].squares + two[1].squares) / (double)(two[0].n + two[1].n)));
-	}
-	return true;
-}
-
 /*
- * Whether n points show two planes that meet at an edge, not an arc: planes along the halves of one that
- * turns by `angle` from half to half, 2 REACH wide, are off by REACH angle / (12 sqrt 5) of it, root mean
- * square.  With half of that allowed, 0.4 finds a tenth less of the sharp edges of fandisk, 0.6 finds some on
- * igea.
+ * Points within REACH of a vertex count, if those around them lie in a plane: a sharp edge among them gives
+ * them a greater variation than FLAT.
  */
-static bool
-is_sharp(const plane two[2], size_t n, double width)
-{
-	double angle = mr_angle(two[0].normal, two[1].normal);
-	size_t counted = two[0].n + two[1].n;
-	double off = sqrt((two[0].squares + two[1].squares) / (double)counted);
+enum { AROUND = 10, NEAREST = 32, LEAST = 8, ROUNDS = 5, SPREAD = 3 };
+static const double REACH = 3, FLAT = 0.002, THROUGH = 0.3;
 
-	return angle * 180 / MR_PI > ANGLE && off < 0.5 * REACH * angle / (12 * sqrt(5)) * width &&
-	       (double)counted > 0.85 * (double)n;
+/* Vertices that are looked at first, and the share of them that must be sharp. */
+enum { SOME = 512 };
+static const double SHARP = 0.033;
+
+/* Of the normals' second moment, an eigenvalue in the largest: less is no plane of its own.  Two planes have
+ * tan^2 of half the angle: so 35 degrees. */
+static const double OWN = 0.1;
+
+/* How far a vertex of a wrap goes: further on it is one of the next row. */
+static const double FARTHEST = 2;
+
+/* Degrees between the planes on both sides; a curve may go on with less. */
+static const double ANGLE = 40, WEAK = 30;
+
+/* Normals within that many degrees are of one side. */
+static const double ALIKE = 25;
+
+/* The cosine between a face and its side: less is a fold. */
+static const double UPRIGHT = 0.5;
+
+/* Of the points within SEEN of an edge, the share that lies ON a side of it. */
+enum { LEAST_SEEN = 4 };
+static const double SEEN = 2, ON = 0.25, SHARE_ON = 0.75;
+
+/* Edges of the surface that a curve crosses, at least. */
+enum { PIECE = 12 };
+
+/* Planes met from a place: A = sum n n^T, b = sum n (n . to the point). */
+typedef struct meeting {
+	double a[6];
+	mr_v3 b;
+	size_t count;
+} meeting;
+
+static void
+meet(meeting *s, mr_v3 n, double height)
+{
+	s->a[0] += n.x * n.x;
+	s->a[1] += n.x * n.y;
+	s->a[2] += n.x * n.z;
+	s->a[3] += n.y * n.y;
+	s->a[4] += n.y * n.z;
+	s->a[5] += n.z * n.z;
+	s->b = mr_axpy(height, n, s->b);
+	s->count++;
+}
+
+/* x = A^+ b, without the eigenvalues that are small: the nearest place on all planes.  Returns the planes. */
+static int
+solve(const meeting *s, double own, mr_v3 *x)
+{
+	double value[3];
+	mr_v3 vector[3];
+	int planes = 0;
+
+	mr_eigen_sym3(s->a, value, vector);
+	*x = mr_vec(0, 0, 0);
+	for (int k = 0; k < 3; k++)
+		if (value[k] > own * value[2]) {
+			*x = mr_axpy(mr_dot(vector[k], s->b) / value[k], vector[k], *x);
+			planes++;
+		}
+	return planes;
+}
+
+/* The planes of points, and the nearest of places: NEAREST each. */
+typedef struct sight {
+	const mr_v3 *p;
+	mr_planes planes;
+	const uint32_t *near;
+	double width;
+} sight;
+
+/* Whether point i counts at a place; r: from there to it. */
+static bool
+counts(const sight *s, uint32_t i, mr_v3 at, mr_v3 *r, double *height)
+{
+	if (i == UINT32_MAX || s->planes.variation[i] >= FLAT)
+		return false;
+	*r = mr_sub(s->p[i], at);
+	*height = mr_dot(*r, s->planes.normal[i]);
+	return mr_norm(*r) < REACH * s->width && fabs(*height) < FARTHEST * s->width;
+}
+
+static bool
+is_sharp(const sight *s, const uint32_t *near, mr_v3 at)
+{
+	meeting m = { .count = 0 };
+	double height;
+	mr_v3 r, x;
+
+	for (int i = 0; i < NEAREST; i++)
+		if (counts(s, near[i], at, &r, &height))
+			meet(&m, s->planes.normal[near[i]], height);
+	return m.count >= LEAST && solve(&m, OWN, &x) > 1 && mr_norm(x) < FARTHEST * s->width;
+}
+
+/* Whether enough of some vertices, at equal strides, are near a sharp edge: up to 2.9 % are of smooth
+ * surfaces. */
+static mr_status
+look_for_edges(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, bool *any)
+{
+	size_t some = m->nv < SOME ? m->nv : SOME, all = some * NEAREST, sharp = 0;
+	mr_v3 *at = MR_NEW(ctx, some, mr_v3), *q = MR_NEW(ctx, all, mr_v3), p[AROUND];
+	uint32_t *near = MR_NEW(ctx, all, uint32_t), *around = MR_NEW(ctx, all * AROUND, uint32_t);
+	sight s = { q, { .normal = MR_NEW(ctx, all, mr_v3), .variation = MR_NEW(ctx, all, double) }, near,
+		c->sampling.usual };
+
+	mr_at_strides(m->p, m->nv, some, at);
+	MR_TRY(mr_near_query(ctx, c->near, at, some, NEAREST, near, NULL));
+	for (size_t i = 0; i < all; i++)
+		q[i] = near[i] == UINT32_MAX ? mr_vec(0, 0, 0) : c->p[near[i]];
+	MR_TRY(mr_near_query(ctx, c->near, q, all, AROUND, around, NULL));
+	for (size_t i = 0; i < all; i++) {
+		size_t k = 0;
+		for (; k < AROUND && around[i * AROUND + k] != UINT32_MAX; k++)
+			p[k] = c->p[around[i * AROUND + k]];
+		s.planes.normal[i] = mr_plane_fit(p, k, &s.planes.variation[i]);
+		near[i] = near[i] == UINT32_MAX ? UINT32_MAX : (uint32_t)i;
+	}
+	for (size_t v = 0; v < some; v++)
+		sharp += is_sharp(&s, near + NEAREST * v, at[v]);
+	*any = (double)sharp > SHARP * (double)some;
+	return MR_OK;
+}
+
+/* The plane that the surface has at a place, on one side of an edge; no normal: none is seen. */
+typedef struct side {
+	mr_v3 normal;
+	double height;
+} side;
+
+/* The mean of the planes at a place that are like one. */
+static side
+mean_like(const sight *s, const uint32_t *near, mr_v3 at, mr_v3 normal)
+{
+	side sum = { { 0, 0, 0 }, 0 };
+	double height, weights = 0, like = cos(ALIKE * MR_PI / 180);
+	mr_v3 r;
+
+	for (int i = 0; i < NEAREST; i++) {
+		mr_v3 n;
+		double w, t, sign = 1;
+		if (!counts(s, near[i], at, &r, &height))
+			continue;
+		n = s->planes.normal[near[i]];
+		if (mr_dot(n, normal) < 0)
+			sign = -1;
+		if (sign * mr_dot(n, normal) < like)
+			continue;
+		t = mr_norm(r) / (REACH * s->width);
+		w = (1 - t * t) * (FLAT - s->planes.variation[near[i]]);
+		w *= w;
+		sum.normal = mr_axpy(sign * w, n, sum.normal);
+		sum.height += sign * w * height;
+		weights += w;
+	}
+	if (weights > 0)
+		sum = (side){ mr_unit(sum.normal), sum.height / weights };
+	return sum;
+}
+
+/* Of a point whose neighbours show no plane, but one of theirs goes through it: that one's plane. */
+static uint32_t
+plane_through(const sight *s, const uint8_t *known, size_t i)
+{
+	uint32_t best = MR_NONE;
+	double least = INFINITY;
+
+	for (size_t k = 0; k < s->planes.links; k++) {
+		uint32_t j = s->planes.neighbor[i * s->planes.links + k];
+		mr_v3 r;
+		double off, far;
+		if (j == UINT32_MAX || !known[j])
+			continue;
+		r = mr_sub(s->p[j], s->p[i]);
+		off = fabs(mr_dot(r, s->planes.normal[j]));
+		far = off + 0.1 * mr_norm(r);
+		if (off < THROUGH * s->width && far < least) {
+			least = far;
+			best = j;
+		}
+	}
+	return best;
+}
+
+/* The plane of a point and of those of its neighbours that are on its side. */
+static void
+fit_side(const sight *s, const mr_v3 *normal, const uint8_t *known, size_t i)
+{
+	double like = cos(ALIKE * MR_PI / 180), variation;
+	mr_v3 p[AROUND] = { s->p[i] }, n;
+	size_t count = 1;
+
+	for (size_t k = 0; k < s->planes.links; k++) {
+		uint32_t j = s->planes.neighbor[i * s->planes.links + k];
+		if (j != UINT32_MAX && known[j] && fabs(mr_dot(normal[j], normal[i])) > like)
+			p[count++] = s->p[j];
+	}
+	n = count > 4 ? mr_plane_fit(p, count, &variation) : normal[i];
+	if (count > 4 && variation < FLAT && fabs(mr_dot(n, normal[i])) > like) {
+		s->planes.normal[i] = n;
+		s->planes.variation[i] = variation;
+	} else {
+		s->planes.variation[i] = FLAT / 2;
+	}
+}
+
+/* Spreads the planes of points to those near an edge, each from its own side. */
+static void
+spread(mr_ctx *ctx, const sight *s, size_t n)
+{
+	uint8_t *known = MR_NEW(ctx, n, uint8_t);
+	uint32_t *from = MR_NEW(ctx, n, uint32_t);
+	mr_v3 *normal = MR_NEW(ctx, n, mr_v3);
+
+	for (size_t i = 0; i < n; i++)
+		known[i] = s->planes.variation[i] < FLAT;
+	for (int round = 0; round < SPREAD; round++) {
+		for (size_t i = 0; i < n; i++)
+			from[i] = known[i] ? MR_NONE : plane_through(s, known, i);
+		for (size_t i = 0; i < n; i++)
+			if (from[i] != MR_NONE) {
+				s->planes.normal[i] = s->planes.normal[from[i]];
+				known[i] = 2;
+			}
+	}
+	memcpy(normal, s->planes.normal, n * sizeof *normal);
+	for (size_t i = 0; i < n; i++)
+		if (known[i] == 2)
+			fit_side(s, normal, known, i);
+}
+
+/* The plane that a place is nearest to. */
+static side
+side_of(const sight *s, const uint32_t *near, mr_v3 at, mr_v3 outer)
+{
+	double least = INFINITY, height;
+	mr_v3 best = { 0, 0, 0 }, r;
+
+	for (int i = 0; i < NEAREST; i++) {
+		double far;
+		if (!counts(s, near[i], at, &r, &height))
+			continue;
+		far = fabs(height) + 0.2 * mr_norm(r) + 5 * s->width * sqrt(s->planes.variation[near[i]]);
+		if (far < least) {
+			least = far;
+			best = s->planes.normal[near[i]];
+		}
+	}
+	if (!(least < INFINITY))
+		return (side){ best, 0 };
+	return mean_like(s, near, at, mr_dot(best, outer) < 0 ? mr_mul(-1, best) : best);
 }
 
 typedef struct finder {
 	const mr_mesh *m;
-	const mr_simplify_cloud *c;
-	double width;
+	mr_topology topo;
+	sight s;
+	side *side;       /* of each vertex */
+	uint32_t *middle; /* of each half-edge that is cut, the new vertex; MR_NONE */
+	size_t cut;       /* edges */
 } finder;
 
-/* The points along a segment, but for its ends where it is long: others meet there.  None along one that is
- * longer than they would reach, two widths each.  p: in the arena. */
-static mr_status
-points_along(mr_ctx *ctx, const finder *f, mr_v3 a, mr_v3 b, mr_v3 **p, size_t *n)
+/* Degrees between the sides of the ends of h. */
+static double
+bend(const finder *f, uint32_t h)
 {
-	mr_v3 e = mr_sub(b, a);
-	double length = mr_norm(e), margin = length > 6 * f->width ? f->width / length : 0;
-	double stretches = length / (2 * f->width);
-	size_t steps = stretches <= (double)f->c->n ? (size_t)stretches + 2 : 0, count = 0,
-	       kept = steps * NEAREST;
-	mr_v3 *at = MR_NEW(ctx, steps, mr_v3);
-	uint32_t *index = MR_NEW(ctx, kept, uint32_t);
+	mr_v3 a = f->side[mr_he_from(f->m, h)].normal, b = f->side[mr_he_to(f->m, h)].normal;
 
-	*p = MR_NEW(ctx, kept, mr_v3);
-	for (size_t i = 0; i < steps; i++)
-		at[i] = mr_lerp((double)i / (double)(steps - 1), a, b);
-	MR_TRY(mr_near_query(ctx, f->c->near, at, steps, NEAREST, index, NULL));
-	kept = mr_sort_unique(index, kept);
-	for (size_t i = 0; i < kept && index[i] != UINT32_MAX; i++) {
-		mr_v3 r = mr_sub(f->c->p[index[i]], a);
-		double t = mr_dot(r, e) / mr_norm2(e);
-		if (t >= margin && t <= 1 - margin && mr_norm(mr_axpy(-t, e, r)) <= REACH * f->width)
-			(*p)[count++] = f->c->p[index[i]];
-	}
-	*n = count;
-	return MR_OK;
+	return mr_norm2(a) > 0 && mr_norm2(b) > 0 ? mr_angle(a, b) * 180 / MR_PI : 0;
 }
 
-/* Whether the edge with half-edges h and g is sharp. */
-static mr_status
-look_at(mr_ctx *ctx, const finder *f, uint32_t h, uint32_t g, bool *sharp)
+/* The half-edge that an edge is known by. */
+static uint32_t
+edge_of(const finder *f, uint32_t h)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 a = f->m->p[mr_he_from(f->m, h)], b = f->m->p[mr_he_to(f->m, h)], *p, *work;
-	mr_v3 middle = mr_lerp(0.5, a, b);
-	plane two[2] = { { .at = middle, .normal = mr_unit(mr_face_cross(f->m, h / 3)) },
-		{ .at = middle, .normal = mr_unit(mr_face_cross(f->m, g / 3)) } };
-	size_t n;
-
-	*sharp = false;
-	if (mr_angle(two[0].normal, two[1].normal) * 180 / MR_PI < ANGLE / 4)
-		return MR_OK;
-	MR_TRY(points_along(ctx, f, a, b, &p, &n));
-	work = MR_NEW(ctx, n, mr_v3);
-	if (fit_two(p, n, f->width, two, work) && is_sharp(two, n, f->width)) {
-		double off = 0;
-		for (int k = 0; k < 2; k++)
-			off = fmax(off, fmax(distance(&two[k], a), distance(&two[k], b)));
-		*sharp = off < OFF * f->width;
-	}
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return f->topo.twin[h] < h ? f->topo.twin[h] : h;
 }
 
-static mr_status
-mark_edges(mr_ctx *ctx, const finder *f, const mr_topology *topo, uint8_t *mark)
+/* Where along the edge of h the planes of both ends are equally far. */
+static mr_v3
+place_on(const finder *f, uint32_t h)
 {
-	memset(mark, 0, 3 * f->m->nf);
-	for (uint32_t h = 0; h < 3 * f->m->nf; h++) {
-		uint32_t g = topo->twin[h];
-		bool sharp;
-		if (g == MR_NONE || g < h)
+	uint32_t a = mr_he_from(f->m, h), b = mr_he_to(f->m, h);
+	mr_v3 e = mr_sub(f->m->p[b], f->m->p[a]);
+	double x = fabs(mr_dot(e, f->side[b].normal) + f->side[b].height);
+	double y = fabs(f->side[a].height - mr_dot(e, f->side[a].normal));
+
+	return mr_axpy(x + y > 0 ? fmin(0.9, fmax(0.1, x / (x + y))) : 0.5, e, f->m->p[a]);
+}
+
+/* The share of the points around `at`, on the edge of h, that lie on the sides that meet there. */
+static double
+seen(const finder *f, uint32_t h, mr_v3 at, const uint32_t *near)
+{
+	mr_v3 n[2], x;
+	meeting s = { .count = 0 };
+	int on = 0, all = 0;
+
+	for (int k = 0; k < 2; k++) {
+		uint32_t v = k ? mr_he_to(f->m, h) : mr_he_from(f->m, h);
+		n[k] = f->side[v].normal;
+		meet(&s, n[k], f->side[v].height + mr_dot(n[k], mr_sub(f->m->p[v], at)));
+	}
+	if (solve(&s, OWN / 4, &x) < 2 || mr_norm(x) > REACH * f->s.width)
+		return 0;
+	x = mr_add(at, x);
+	for (int i = 0; i < NEAREST && near[i] != UINT32_MAX; i++) {
+		mr_v3 r = mr_sub(f->s.p[near[i]], x);
+		if (mr_norm(r) > SEEN * f->s.width)
 			continue;
-		MR_TRY(look_at(ctx, f, h, g, &sharp));
-		mark[h] = mark[g] = sharp;
+		all++;
+		on += fmin(fabs(mr_dot(r, n[0])), fabs(mr_dot(r, n[1]))) < ON * f->s.width;
+	}
+	return all >= LEAST_SEEN ? (double)on / all : 0;
+}
+
+/* Each share becomes the mean along the curve. */
+static void
+even_out(mr_ctx *ctx, const finder *f, const double *angle, double *share)
+{
+	size_t nh = 3 * f->m->nf;
+	double *sum = MR_NEW(ctx, nh, double);
+	uint32_t *count = MR_NEW(ctx, nh, uint32_t);
+
+	for (int round = 0; round < ROUNDS; round++) {
+		memcpy(sum, share, nh * sizeof *sum);
+		for (size_t h = 0; h < nh; h++)
+			count[h] = 1;
+		for (uint32_t h = 0; h < nh; h++) {
+			uint32_t n = mr_he_next(h), a = edge_of(f, h), b = edge_of(f, n);
+			if (!(angle[h] > WEAK) || !(angle[n] > WEAK))
+				continue;
+			sum[a] += share[b];
+			sum[b] += share[a];
+			count[a]++;
+			count[b]++;
+		}
+		for (size_t h = 0; h < nh; h++)
+			share[h] = sum[h] / count[h];
+	}
+}
+
+/* Takes back the angles of edges whose sides are not seen to meet. */
+static mr_status
+look_closer(mr_ctx *ctx, const finder *f, const mr_simplify_cloud *c, double *angle)
+{
+	size_t nh = 3 * f->m->nf, n = 0;
+	mr_v3 *at = MR_NEW(ctx, nh, mr_v3);
+	double *share = MR_NEW_ZERO(ctx, nh, double);
+	uint32_t *near;
+
+	for (uint32_t h = 0; h < nh; h++)
+		if (angle[h] > WEAK && edge_of(f, h) == h)
+			at[n++] = place_on(f, h);
+	near = mr_alloc(ctx, n, NEAREST * sizeof *near);
+	MR_TRY(mr_near_query(ctx, c->near, at, n, NEAREST, near, NULL));
+	n = 0;
+	for (uint32_t h = 0; h < nh; h++)
+		if (angle[h] > WEAK && edge_of(f, h) == h) {
+			share[h] = seen(f, h, at[n], near + NEAREST * n);
+			n++;
+		}
+	even_out(ctx, f, angle, share);
+	for (uint32_t h = 0; h < nh; h++)
+		if (share[edge_of(f, h)] < SHARE_ON)
+			angle[h] = 0;
+	return MR_OK;
+}
+
+/* Numbers the edges that are crossed by curves long enough. */
+static mr_status
+cut_edges(mr_ctx *ctx, finder *f, const mr_simplify_cloud *c)
+{
+	size_t nh = 3 * f->m->nf;
+	uint32_t *set = mr_sets_new(ctx, nh), *size = MR_NEW_ZERO(ctx, nh, uint32_t);
+	double *angle = MR_NEW(ctx, nh, double);
+
+	for (uint32_t h = 0; h < nh; h++)
+		angle[h] = bend(f, h);
+	MR_TRY(look_closer(ctx, f, c, angle));
+	for (uint32_t t = 0; t < f->m->nf; t++)
+		for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
+			if (angle[h] > WEAK && angle[mr_he_next(h)] > WEAK)
+				mr_sets_join(set, edge_of(f, h), edge_of(f, mr_he_next(h)));
+	for (uint32_t h = 0; h < nh; h++)
+		size[mr_sets_root(set, h)] += edge_of(f, h) == h && angle[h] > ANGLE;
+	f->cut = 0;
+	for (uint32_t h = 0; h < nh; h++) {
+		uint32_t e = edge_of(f, h), piece = mr_sets_root(set, e);
+		f->middle[h] = MR_NONE;
+		if (angle[h] > WEAK && size[piece] >= PIECE)
+			f->middle[h] = e < h ? f->middle[e] : (uint32_t)(f->m->nv + f->cut++);
 	}
 	return MR_OK;
 }
 
-/* Takes back what is short: of marked edges that hang together, fewer than PIECE. */
-static void
-drop_pieces(mr_ctx *ctx, const mr_mesh *m, uint8_t *mark, size_t *count)
-{
-	uint32_t *set = mr_sets_new(ctx, m->nv), *half = MR_NEW_ZERO(ctx, m->nv, uint32_t);
+/* The surface cut, and where its vertices are to go. */
+typedef struct cutting {
+	mr_v3 *p, *to;
+	mr_tri *t;
+	uint8_t *mark;
+	mr_v3 *normal;      /* that each face is to have */
+	side (*sides)[3];   /* that meet at each new vertex */
+	const side **moved; /* of each old vertex beside it; NULL */
+	size_t nv, nf;
+} cutting;
 
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		if (mark[h])
-			mr_sets_join(set, mr_he_from(m, h), mr_he_to(m, h));
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		half[mr_sets_root(set, mr_he_from(m, h))] += mark[h];
-	*count = 0;
-	for (uint32_t h = 0; h < 3 * m->nf; h++) {
-		mark[h] = mark[h] && half[mr_sets_root(set, mr_he_from(m, h))] >= 2 * PIECE;
-		*count += mark[h];
+static void
+put_face(cutting *c, const side *s, uint32_t a, uint32_t b, uint32_t d, bool sharp)
+{
+	mr_v3 cross = mr_cross(mr_sub(c->p[b], c->p[a]), mr_sub(c->p[d], c->p[a]));
+
+	c->normal[c->nf] = s ? s->normal : mr_unit(cross);
+	c->t[c->nf] = (mr_tri){ { a, b, d } };
+	c->mark[3 * c->nf] = sharp; /* a to b */
+	c->mark[3 * c->nf + 1] = c->mark[3 * c->nf + 2] = 0;
+	c->nf++;
+}
+
+/* Face t, cut.  Three planes meet in a corner within it. */
+static void
+cut_face(const finder *f, uint32_t t, cutting *c)
+{
+	uint32_t cuts = 0, h = 3 * t, a, b, d, x, y;
+
+	for (uint32_t k = 3 * t; k < 3 * t + 3; k++)
+		cuts += f->middle[k] != MR_NONE;
+	if (cuts == 3) {
+		uint32_t o = (uint32_t)c->nv++;
+		const uint32_t *v = f->m->t[t].v;
+		c->p[o] = mr_mul(1.0 / 3, mr_add(mr_add(c->p[v[0]], c->p[v[1]]), c->p[v[2]]));
+		for (uint32_t k = 3 * t; k < 3 * t + 3; k++) {
+			c->sides[o - f->m->nv][k % 3] = f->side[v[k % 3]];
+			put_face(c, &f->side[mr_he_to(f->m, k)], o, f->middle[k], mr_he_to(f->m, k), true);
+			put_face(
+			    c, &f->side[mr_he_from(f->m, k)], f->middle[k], o, mr_he_from(f->m, k), true);
+		}
+		return;
 	}
-	*count /= 2;
+	/* Where two are cut, h and the one before it. */
+	for (uint32_t k = 0; k < 3 && cuts > 0; k++, h = mr_he_next(h))
+		if (f->middle[h] != MR_NONE && (cuts == 1 || f->middle[mr_he_prev(h)] != MR_NONE))
+			break;
+	h = cuts > 0 ? h : 3 * t;
+	a = mr_he_from(f->m, h);
+	b = mr_he_to(f->m, h);
+	d = mr_he_from(f->m, mr_he_prev(h));
+	x = f->middle[h];
+	y = f->middle[mr_he_prev(h)];
+	if (cuts == 0) {
+		put_face(c, NULL, a, b, d, false);
+	} else if (cuts == 1) {
+		put_face(c, NULL, a, x, d, false);
+		put_face(c, NULL, x, b, d, false);
+	} else {
+		put_face(c, &f->side[a], x, y, a, true);
+		put_face(c, &f->side[d], y, x, d, true);
+		put_face(c, &f->side[b], x, b, d, false);
+	}
+}
+
+static void
+cut_surface(mr_ctx *ctx, const finder *f, cutting *c)
+{
+	size_t nv = f->m->nv, most = f->cut + f->m->nf, faces = f->m->nf + 6 * f->cut;
+
+	*c = (cutting){ MR_NEW(ctx, nv + most, mr_v3), MR_NEW(ctx, nv + most, mr_v3),
+		MR_NEW(ctx, faces, mr_tri), MR_NEW(ctx, 3 * faces, uint8_t), MR_NEW(ctx, faces, mr_v3),
+		mr_alloc(ctx, most, sizeof *c->sides), NULL, nv + f->cut, 0 };
+	memset(c->sides, 0, most * sizeof *c->sides);
+	memcpy(c->p, f->m->p, nv * sizeof *c->p);
+	for (uint32_t h = 0; h < 3 * f->m->nf; h++)
+		if (f->middle[h] != MR_NONE && edge_of(f, h) == h) {
+			uint32_t a = mr_he_from(f->m, h), b = mr_he_to(f->m, h);
+			c->p[f->middle[h]] = place_on(f, h);
+			c->sides[f->middle[h] - nv][0] = f->side[a];
+			c->sides[f->middle[h] - nv][1] = f->side[b];
+		}
+	for (uint32_t t = 0; t < f->m->nf; t++)
+		cut_face(f, t, c);
+}
+
+/* New vertices go to where the sides meet, those that they lie between onto their side. */
+static mr_status
+snap(mr_ctx *ctx, finder *f, const mr_simplify_cloud *cloud, cutting *c)
+{
+	size_t nv = f->m->nv, nw = c->nv - nv;
+	uint32_t *near = mr_alloc(ctx, nw, NEAREST * sizeof *near);
+
+	c->moved = MR_NEW_ZERO(ctx, nv, const side *);
+	memcpy(c->to, c->p, c->nv * sizeof *c->p);
+	for (uint32_t h = 0; h < 3 * f->m->nf; h++)
+		if (f->middle[h] != MR_NONE) {
+			uint32_t v = mr_he_from(f->m, h);
+			c->moved[v] = &f->side[v];
+			c->to[v] = mr_axpy(f->side[v].height, f->side[v].normal, c->p[v]);
+		}
+	MR_TRY(mr_near_query(ctx, cloud->near, c->p + nv, nw, NEAREST, near, NULL));
+	for (size_t w = 0; w < nw; w++) {
+		meeting s = { .count = 0 };
+		mr_v3 x;
+		for (int k = 0; k < 3; k++) {
+			side m = mean_like(&f->s, near + NEAREST * w, c->p[nv + w], c->sides[w][k].normal);
+			if (mr_norm2(c->sides[w][k].normal) > 0 && mr_norm2(m.normal) > 0)
+				meet(&s, m.normal, m.height);
+		}
+		if (s.count > 1 && solve(&s, OWN / 4, &x) > 1 && mr_norm(x) < REACH * f->s.width)
+			c->to[nv + w] = mr_add(c->p[nv + w], x);
+	}
+	return MR_OK;
+}
+
+static mr_v3
+cross_of(const cutting *c, const mr_v3 *p, uint32_t f)
+{
+	const uint32_t *v = c->t[f].v;
+
+	return mr_cross(mr_sub(p[v[1]], p[v[0]]), mr_sub(p[v[2]], p[v[0]]));
+}
+
+/* Whether face f would look away from its side, more than it did. */
+static bool
+is_bad(const void *arg, uint32_t f)
+{
+	const cutting *c = arg;
+	double to = mr_dot(mr_unit(cross_of(c, c->to, f)), c->normal[f]);
+
+	return to < UPRIGHT && to < mr_dot(mr_unit(cross_of(c, c->p, f)), c->normal[f]);
+}
+
+/* The vertices beside the cut whose faces would look away go to the middle of those around them. */
+static void
+make_way(mr_ctx *ctx, const cutting *c, size_t nv)
+{
+	mr_v3 *sum = MR_NEW(ctx, nv, mr_v3);
+	uint32_t *count = MR_NEW(ctx, nv, uint32_t);
+	uint8_t *bad = MR_NEW(ctx, nv, uint8_t);
+
+	for (int round = 0; round < ROUNDS; round++) {
+		memset(sum, 0, nv * sizeof *sum);
+		memset(count, 0, nv * sizeof *count);
+		memset(bad, 0, nv);
+		for (uint32_t h = 0; h < 3 * c->nf; h++) {
+			const uint32_t *v = c->t[h / 3].v;
+			uint32_t at = v[h % 3];
+			if (at >= nv)
+				continue;
+			sum[at] = mr_add(sum[at], mr_add(c->to[v[(h + 1) % 3]], c->to[v[(h + 2) % 3]]));
+			count[at] += 2;
+			bad[at] |= c->moved[at] && is_bad(c, h / 3);
+		}
+		for (size_t v = 0; v < nv; v++)
+			if (bad[v]) {
+				mr_v3 r = mr_sub(mr_mul(1.0 / count[v], sum[v]), c->to[v]),
+				      n = c->moved[v]->normal;
+				c->to[v] = mr_add(c->to[v], mr_axpy(-mr_dot(r, n), n, r));
+			}
+	}
+}
+
+static mr_status
+find(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_mesh *out, uint8_t **mark)
+{
+	finder f = { .m = m, .s = { .p = c->p, .width = c->sampling.usual } };
+	uint32_t *near = mr_alloc(ctx, m->nv, NEAREST * sizeof *near);
+	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3);
+	mr_topology topo;
+	cutting cut;
+	mr_guard guard;
+
+	f.side = MR_NEW(ctx, m->nv, side);
+	f.middle = MR_NEW(ctx, 3 * m->nf, uint32_t);
+	MR_TRY(mr_topology_build(ctx, m, &f.topo));
+	MR_TRY(mr_cloud_planes(ctx, c->p, c->n, AROUND, AROUND - 1, false, &f.s.planes));
+	spread(ctx, &f.s, c->n);
+	MR_TRY(mr_near_query(ctx, c->near, m->p, m->nv, NEAREST, near, NULL));
+	mr_vertex_normals(ctx, m, NULL, normal);
+	for (size_t v = 0; v < m->nv; v++)
+		f.side[v] = side_of(&f.s, near + NEAREST * v, m->p[v], normal[v]);
+	MR_TRY(cut_edges(ctx, &f, c));
+	if (f.cut == 0)
+		return MR_OK;
+	cut_surface(ctx, &f, &cut);
+	MR_TRY(snap(ctx, &f, c, &cut));
+	*out = (mr_mesh){ m->name, cut.p, cut.t, cut.nv, cut.nf };
+	MR_TRY(mr_topology_build(ctx, out, &topo));
+	make_way(ctx, &cut, m->nv);
+	guard = (mr_guard){ .t = cut.t,
+		.topo = topo,
+		.nv = cut.nv,
+		.nf = cut.nf,
+		.halves = 3,
+		.is_bad = is_bad,
+		.arg = &cut };
+	MR_TRY(mr_guarded_move(ctx, &guard, cut.p, cut.to));
+	out->p = cut.to;
+
+	*mark = cut.mark;
+	return MR_OK;
 }
 
 mr_status
-mr_find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, uint8_t *mark, size_t *count)
+mr_find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_mesh *out, uint8_t **mark)
 {
-	mr_mark here = mr_mark_take(ctx);
-	finder f = { m, c, c->sampling.usual };
-	mr_topology topo;
+	bool any;
 
-	MR_TRY(mr_topology_build(ctx, m, &topo));
-	MR_TRY(mark_edges(ctx, &f, &topo, mark));
-	drop_pieces(ctx, m, mark, count);
-	mr_mark_release(ctx, here);
-	return MR_OK;
+	*out = *m;
+	*mark = NULL;
+	MR_TRY(look_for_edges(ctx, m, c, &any));
+	return any ? find(ctx, m, c, out, mark) : MR_OK;
 }

@@ -101,10 +101,12 @@ mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length)
 {
 	bool any = false;
 
-	d->curve = MR_NEW(ctx, 3 * d->nf, uint32_t);
-	mark(d);
-	if (length > 0)
-		drop_pieces(ctx, d, length);
+	if (!d->curve) {
+		d->curve = MR_NEW(ctx, 3 * d->nf, uint32_t);
+		mark(d);
+		if (length > 0)
+			drop_pieces(ctx, d, length);
+	}
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		any |= mr_dyn_on_curve(d, h);
 	if (!any) {

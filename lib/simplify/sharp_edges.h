@@ -7,10 +7,10 @@
 #include "mesh/dynmesh.h"
 
 /*
- * Makes curves of the edges of d, which has none, that are sharp, and of its boundary: its curve and kind;
- * false where none is sharp, and d as it was.  Corners are where other than two of them meet, or they turn
- * sharply.  Pieces shorter than `length`, or hardly sharper than the edges around, are dropped; where that is
- * 0, none.
+ * Makes curves of the edges of d, that are sharp, or of those that it has, and of its boundary: its curve and
+ * kind; false where none is sharp, and d as it was.  Corners are where other than two of them meet, or they
+ * turn sharply.  Pieces shorter than `length`, or hardly sharper than the edges around, are dropped; where
+ * that is 0, none.
  */
 bool mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length);
 

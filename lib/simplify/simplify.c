@@ -301,6 +301,11 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 		d.at[v] = v;
 		d.kind[v] = d.out[v] == MR_NONE ? MR_DEAD : MR_SMOOTH;
 	}
+	if (s->o->sharp && *s->o->sharp) {
+		d.curve = MR_NEW(s->ctx, 3 * m->nf, uint32_t);
+		for (uint32_t h = 0; h < 3 * m->nf; h++)
+			d.curve[h] = (*s->o->sharp)[h] ? h : MR_NONE;
+	}
 	MR_TRY(mr_dyn_compact(s->ctx, &d));
 	mr_dyn_order(s->ctx, &d);
 	s->d = d;

@@ -20,8 +20,9 @@ typedef struct mr_simplify_cloud {
  * Simplifies an oriented manifold m, boundary allowed; its topology stays (link condition) and no triangle is
  * flipped.  Where nothing more can be merged the result has more faces than asked for: the result
  * tells.  onto: m->nv, the caller's: the vertex of the result that each was merged into (MR_NONE for an
- * isolated one).  out: in the arena.  result: or NULL.  opts->sharp: not NULL: sharp edges of m by the angles
- * of its faces are kept, and *sharp marks them in out, 3 nf, in the arena, NULL where there are none.
+ * isolated one).  out: in the arena.  result: or NULL.  opts->sharp: not NULL: sharp edges of m are kept,
+ * which *sharp marks (3 m->nf; NULL: those by the angles of its faces), and *sharp marks them in out, 3 nf,
+ * in the arena, NULL where there are none.
  */
 mr_status mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out,
     uint32_t *onto, mr_simplify_result *result);

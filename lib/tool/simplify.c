@@ -151,16 +151,6 @@ may_be_sharp(
 	return MR_OK;
 }
 
-/* Puts the creases of the result, if it has some. */
-static mr_status
-put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_simplify_cloud *c, size_t *count)
-{
-	uint8_t *mark = MR_NEW(ctx, 3 * out->nf, uint8_t);
-
-	MR_TRY(mr_find_creases(ctx, out, c, mark, count));
-	return *count ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
-}
-
 static mr_status
 put_marks(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const uint8_t *mark, size_t *count)
 {
@@ -180,7 +170,7 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	const char *layer;
 	uint32_t *onto;
 	uint8_t *marks = NULL;
-	bool look, sharp;
+	bool look;
 
 	MR_TRY(mr_check_number(ctx, "ratio", o.ratio, 0, 1));
 	MR_TRY(mr_check_number(ctx, "error", o.error, 0, 1e300));
@@ -191,19 +181,15 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 		return mr_fail(
 		    ctx, MR_EUSAGE, "--%s: %s is the layer that is simplified", o.to ? "to" : "map", layer);
 	MR_TRY(read_points(ctx, f, o.to ? o.to : layer, &points));
-	MR_TRY(weigh(ctx, &m, &points, &o));
-	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
-		limit_by_frame(ctx, &m, &points, &o);
-	onto = MR_NEW(ctx, m.nv, uint32_t);
-	surface = m;
 	MR_TRY(may_be_sharp(ctx, &m, &points, &o, &look));
-	sharp = look;
-	if (look) {
-		mr_v3 *p = MR_NEW(ctx, m.nv, mr_v3);
-		MR_TRY(mr_sharpen(ctx, &m, &points, p, &sharp));
-		surface.p = sharp ? p : m.p;
-	}
-	if (of_mesh(&o) && !o.smooth)
+	surface = m;
+	if (look)
+		MR_TRY(mr_find_creases(ctx, &m, &points, &surface, &marks));
+	MR_TRY(weigh(ctx, &surface, &points, &o));
+	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
+		limit_by_frame(ctx, &surface, &points, &o);
+	onto = MR_NEW(ctx, surface.nv, uint32_t);
+	if (marks || (of_mesh(&o) && !o.smooth))
 		o.sharp = &marks;
 	MR_TRY(mr_simplify(ctx, &surface, &o, &out, onto, r));
 	r->creases = look || o.creases ? 0 : MR_UNKNOWN;
@@ -212,8 +198,6 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
 	if (o.sharp)
 		MR_TRY(put_marks(ctx, f, &out, marks, &r->creases));
-	if (sharp)
-		MR_TRY(put_creases(ctx, f, &out, &points, &r->creases));
 	if (o.map && !o.to)
 		MR_TRY(put_map(ctx, f, o.map, &m, &out, onto));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);

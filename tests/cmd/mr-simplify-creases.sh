@@ -23,6 +23,17 @@ mr-export -l control control.obj <fit.mrs
 mr-export -l control control.glb <fit.mrs
 mr-simplify -n 300 -j 1 wrap.mrs | cmp - simple.mrs && echo 'the same by one thread'
 
+echo 'curves are whole, for any number of faces'
+for shape in cube cylinder; do
+	for n in 2000 6000 20000; do
+		mr-make $shape --points $n | mr-shrinkwrap -q -o whole.mrs
+		for faces in 300 1000; do
+			mr-simplify -q -n $faces --stats stats whole.mrs -o /dev/null
+			[ "$(figure stats creases)" -ge 24 ] || echo "$shape of $n points, $faces faces: $(figure stats creases)"
+		done
+	done
+done
+
 echo 'edits, equalizing, maps and mirrors keep them'
 mr-equalize --gain 1 scan.mrs --no-history | mr-decode --no-history -o equal.mrs
 mr-decode --no-history scan.mrs | mr-compare -a mesh -b mesh --json equal.mrs | grep -o '"vertex_max_relative":[0-9.]*e-1[0-9]' | cut -c1-22

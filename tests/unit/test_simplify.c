@@ -108,7 +108,7 @@ sharp_length(mr_solid solid, size_t vertices, size_t faces)
 	mr_make_opts shape = MR_MAKE_DEFAULTS;
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
 	double length = 0;
-	uint8_t *sharp;
+	uint8_t *sharp = NULL;
 	uint32_t *onto;
 	mr_mesh m, out;
 
@@ -204,28 +204,6 @@ places_stay_on_their_side(void **state)
 	assert_int_equal(strayed, 0);
 }
 
-/* An edge is not walked in steps that its points could not fill. */
-static void
-edges_beyond_the_points_are_not_sharp(void **state)
-{
-	mr_make_opts solid = MR_MAKE_DEFAULTS;
-	size_t count = 1;
-	mr_simplify_cloud c;
-	uint8_t *mark;
-	mr_mesh m;
-
-	(void)state;
-	solid.vertices = 200;
-	assert_int_equal(mr_solid_make(&ctx, &solid, &m), MR_OK);
-	mark = MR_NEW(&ctx, 3 * m.nf, uint8_t);
-	c = (mr_simplify_cloud){ .p = m.p, .n = m.nv };
-	assert_int_equal(mr_near_build(&ctx, m.p, m.nv, &c.near), MR_OK);
-	for (c.sampling.usual = 1e-3; c.sampling.usual > 1e-300; c.sampling.usual *= 1e-12) {
-		assert_int_equal(mr_find_creases(&ctx, &m, &c, mark, &count), MR_OK);
-		assert_int_equal(count, 0);
-	}
-}
-
 int
 main(void)
 {
@@ -236,7 +214,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(sharp_edges_of_a_mesh_are_kept, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_are_the_nearest, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_stay_on_their_side, setup, teardown),
-		cmocka_unit_test_setup_teardown(edges_beyond_the_points_are_not_sharp, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
