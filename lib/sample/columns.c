@@ -1,5 +1,6 @@
 /* What points have beside their places, at the vertices of the surface that is displaced to them. */
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "sample/parts.h"
 
 enum { LOOKED_AT = 16, NEAREST = 6, CHUNK = 1 << 13, GRAIN = 256 };
@@ -55,24 +56,12 @@ weigh_vertices(void *arg, size_t begin, size_t end)
 /* What is farther from the median than so many times as half of the points are, is a spot. */
 static const double FAR = 6;
 
-static void
-sort(double x[NEAREST], size_t n)
-{
-	for (size_t i = 1; i < n; i++) {
-		double a = x[i];
-		size_t k = i;
-		for (; k > 0 && x[k - 1] > a; k--)
-			x[k] = x[k - 1];
-		x[k] = a;
-	}
-}
-
 /* Adds to how far each is from the median that of component k. */
 static void
 add_distances(const mr_carried *c, size_t k, const uint32_t parent[NEAREST], const double weight[NEAREST],
     double far[NEAREST])
 {
-	double x[NEAREST], sorted[NEAREST];
+	double x[NEAREST], sorted[NEAREST], median;
 	size_t n = 0;
 
 	for (size_t i = 0; i < NEAREST; i++) {
@@ -81,9 +70,9 @@ add_distances(const mr_carried *c, size_t k, const uint32_t parent[NEAREST], con
 		if (weight[i] > 0 && isfinite(x[i]))
 			sorted[n++] = x[i];
 	}
-	sort(sorted, n);
+	median = n > 0 ? mr_kth(sorted, n, n / 2) : 0;
 	for (size_t i = 0; i < NEAREST && n > 0; i++)
-		far[i] += isfinite(x[i]) ? fabs(x[i] - sorted[n / 2]) : 0;
+		far[i] += isfinite(x[i]) ? fabs(x[i] - median) : 0;
 }
 
 static void
@@ -92,7 +81,7 @@ leave_out_spots(void *arg, size_t begin, size_t end)
 	const job *j = arg;
 
 	for (size_t i = begin; i < end; i++) {
-		double *weight = j->robust + i * NEAREST, far[NEAREST] = { 0 }, sorted[NEAREST];
+		double *weight = j->robust + i * NEAREST, far[NEAREST] = { 0 }, sorted[NEAREST], most;
 		size_t n = 0;
 		memcpy(weight, j->weight + i * NEAREST, NEAREST * sizeof *weight);
 		for (size_t k = 0; k < j->column->shape.components; k++)
@@ -100,9 +89,9 @@ leave_out_spots(void *arg, size_t begin, size_t end)
 		for (size_t k = 0; k < NEAREST; k++)
 			if (weight[k] > 0)
 				sorted[n++] = far[k];
-		sort(sorted, n);
+		most = FAR * mr_kth(sorted, n, n / 2);
 		for (size_t k = 0; k < NEAREST; k++)
-			if (far[k] > FAR * sorted[n / 2])
+			if (far[k] > most)
 				weight[k] = 0;
 	}
 }

@@ -6,6 +6,7 @@
  *
  * Of each level's surface walls with few points for their size are left out: those of parts, and of cavities.
  */
+#include "mesh/clip.h"
 #include "space/connected.h"
 #include "volume/parts.h"
 #include "volume/volume.h"
@@ -82,10 +83,8 @@ is_supported(const mr_walls *w, const wall *of)
 static void
 keep_walls(mr_ctx *ctx, const mr_walls *w, mr_mesh *m)
 {
-	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
-	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
-	uint32_t *number = MR_NEW(ctx, m->nv, uint32_t);
-	size_t nv = 0, nf = 0, largest = 0;
+	double *value = MR_NEW(ctx, m->nv, double);
+	size_t largest = 0;
 	mr_connected c;
 	wall *of;
 
@@ -97,18 +96,9 @@ keep_walls(mr_ctx *ctx, const mr_walls *w, mr_mesh *m)
 		see(w, m->p[v], &of[c.part[v]]);
 	for (size_t k = 1; k < c.parts; k++)
 		largest = of[k].area > of[largest].area ? k : largest;
-	for (size_t v = 0; v < m->nv; v++) {
-		bool stays = c.part[v] == largest || is_supported(w, &of[c.part[v]]);
-		number[v] = stays ? (uint32_t)nv : MR_NONE;
-		if (stays)
-			p[nv++] = m->p[v];
-	}
-	for (size_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		if (number[v[0]] != MR_NONE)
-			t[nf++] = (mr_tri){ { number[v[0]], number[v[1]], number[v[2]] } };
-	}
-	*m = (mr_mesh){ .name = m->name, .p = p, .t = t, .nv = nv, .nf = nf };
+	for (size_t v = 0; v < m->nv; v++)
+		value[v] = c.part[v] == largest || is_supported(w, &of[c.part[v]]) ? -1 : 1;
+	mr_mesh_clip(ctx, m, value, m);
 }
 
 mr_status

@@ -153,7 +153,7 @@ mr_volume_loud(const double *vote, size_t n)
 	return n > 0 ? LOUD * all / (double)n : 0;
 }
 
-static mr_status
+static void
 begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, const double *flood, parts *q)
 {
 	q->parent = MR_NEW(ctx, s->n, uint32_t);
@@ -168,7 +168,6 @@ begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, const double *f
 		q->vote[i] = vote[i];
 		q->flood[i] = flood ? flood[i] : 0;
 	}
-	return MR_OK;
 }
 
 mr_status
@@ -182,7 +181,7 @@ mr_volume_orient(
 
 	if (s->n > UINT32_MAX / links)
 		return mr_fail(ctx, MR_ERANGE, "%zu points are too many for a volume", s->n);
-	MR_TRY(begin(ctx, s, vote, flood, &q));
+	begin(ctx, s, vote, flood, &q);
 	q.loud = apart ? mr_volume_loud(vote, s->n) : INFINITY;
 	sort_links(ctx, s, &o);
 	for (size_t k = 0; k < o.count; k++) {

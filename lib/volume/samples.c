@@ -45,14 +45,9 @@ usual_area(const mr_volume_cloud *s, const double *area, size_t i)
 	double least[LINKS];
 	size_t n = 0;
 
-	for (size_t j = 0; j < s->plane.links && neighbor[j] != UINT32_MAX; j++) {
-		double a = area[neighbor[j]];
-		size_t k = n++;
-		for (; k > 0 && least[k - 1] > a; k--)
-			least[k] = least[k - 1];
-		least[k] = a;
-	}
-	return n > 0 ? least[n / 4] : area[i];
+	for (size_t j = 0; j < s->plane.links && neighbor[j] != UINT32_MAX; j++)
+		least[n++] = area[neighbor[j]];
+	return n > 0 ? mr_kth(least, n, n / 4) : area[i];
 }
 
 static void

@@ -444,10 +444,10 @@ make_level(mr_ctx *ctx, volume *v, const mr_walls *w, double half, mr_grid_multi
 	return MR_OK;
 }
 
-static mr_status
-begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
+static void
+begin(mr_ctx *ctx, size_t cells, size_t n, volume *v)
 {
-	choose_grid(v->s.box, v->s.noise * v->s.spacing, n, opts->grid, &v->grid[0], &v->levels);
+	choose_grid(v->s.box, v->s.noise * v->s.spacing, n, cells, &v->grid[0], &v->levels);
 	v->depths = v->levels < DEPTHS ? v->levels : DEPTHS;
 	v->sheet = false;
 	v->value = MR_NEW(ctx, v->s.n, double);
@@ -469,7 +469,6 @@ begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
 		}
 		mr_volume_field(ctx, &v->s, g, d, &v->f[d]);
 	}
-	return MR_OK;
 }
 
 /* f, of the grid's nodes: below the level inside. */
@@ -545,12 +544,11 @@ orient_body(mr_ctx *ctx, volume *v, float *f)
 mr_status
 mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 {
-	static const mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_mark mark = mr_mark_take(ctx);
 	volume v = { .s = *s };
 	float *f;
 
-	MR_TRY(begin(ctx, &opts, s->n, &v));
+	begin(ctx, 0, s->n, &v);
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
 	MR_TRY(orient_by_flood(ctx, &v, f));
 	if (v.sheet)
@@ -631,7 +629,7 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	v.found.turned = false;
 	v.side.toward = NULL;
 	MR_TRY(take_points(ctx, point, n, opts, &places, &v));
-	MR_TRY(begin(ctx, opts, places, &v));
+	begin(ctx, opts->grid, places, &v);
 	mr_walls_begin(ctx, &v.s, &v.grid[0], &w);
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
 	mark = mr_mark_take(ctx);

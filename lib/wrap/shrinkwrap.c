@@ -187,10 +187,11 @@ take_side(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_mesh *m)
 }
 
 static void
-put_result(const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
+put_result(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 {
 	mr_wrap_result r = c->found;
 
+	report_cover(ctx, cloud, c);
 	r.places = cloud->sampling.places;
 	r.outliers = cloud->sampling.outliers;
 	r.sampling = cloud->spacing;
@@ -208,20 +209,12 @@ put_result(const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 /* ---- the whole ---- */
 
 static mr_status
-wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out, mr_wrap_result *result)
+begin(
+    mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, mr_wrap_cloud *cloud, mr_wrap *c)
 {
-	mr_wrap c;
-
-	mr_unmeasured(&c.found, sizeof c.found);
-	c.lids = (mr_wrap_lids){ 0 };
-	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
-	report_cover(ctx, cloud, &c);
-	report_topology(ctx, cloud, &c);
-	put_result(cloud, &c, result);
-	*out = mr_dyn_view(&c.d, "control");
-	if (c.found.method == MR_WRAP_VOLUME && c.found.volume.turned)
-		take_side(ctx, cloud, &c, out);
-	return MR_OK;
+	mr_unmeasured(&c->found, sizeof c->found);
+	c->lids = (mr_wrap_lids){ 0 };
+	return mr_wrap_cloud_open(ctx, point, n, sampling, cloud);
 }
 
 mr_status
@@ -229,41 +222,37 @@ mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *samp
     const mr_outer_sides *sides, const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result)
 {
 	mr_wrap_cloud cloud;
-
-	MR_TRY(mr_wrap_cloud_open(ctx, point, n, sampling, &cloud));
-	cloud.sides = sides;
-	return wrap(ctx, &cloud, opts, out, result);
-}
-
-/* By the steps of the paper, which turn no face, and at the end those of all that is near the points. */
-static mr_status
-wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, const mr_wrap_opts *o, mr_v3 *p,
-    mr_wrap_result *result)
-{
 	mr_wrap c;
 
-	mr_unmeasured(&c.found, sizeof c.found);
-	c.lids = (mr_wrap_lids){ 0 };
-	c.found.method = TEMPLATE;
-	if (!(mr_mesh_edge_scale(ctx, start) > 0))
-		return mr_fail(ctx, MR_EMESH, "the template's %zu vertices are at one place", start->nv);
-	MR_TRY(mr_wrap_dyn(ctx, start, &c.d));
-	MR_TRY(pull(ctx, cloud, o, true, &c));
-	MR_TRY(mr_wrap_settle(ctx, cloud, o, TEMPLATE_SETTLES, &c.d));
-	mr_unfold(&c.d);
-	MR_TRY(mr_wrap_assess(ctx, cloud, &c));
-	report_cover(ctx, cloud, &c);
-	put_result(cloud, &c, result);
-	memcpy(p, c.d.p, start->nv * sizeof *p);
+	MR_TRY(begin(ctx, point, n, sampling, &cloud, &c));
+	cloud.sides = sides;
+	MR_TRY(wrap_by_method(ctx, &cloud, opts, &c));
+	put_result(ctx, &cloud, &c, result);
+	report_topology(ctx, &cloud, &c);
+	*out = mr_dyn_view(&c.d, "control");
+	if (c.found.method == MR_WRAP_VOLUME && c.found.volume.turned)
+		take_side(ctx, &cloud, &c, out);
 	return MR_OK;
 }
 
+/* By the steps of the paper, which turn no face, and at the end those of all that is near the points. */
 mr_status
 mr_wrap_template(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, const mr_mesh *start,
     const mr_wrap_opts *opts, mr_v3 *p, mr_wrap_result *result)
 {
 	mr_wrap_cloud cloud;
+	mr_wrap c;
 
-	MR_TRY(mr_wrap_cloud_open(ctx, point, n, sampling, &cloud));
-	return wrap_template(ctx, &cloud, start, opts, p, result);
+	MR_TRY(begin(ctx, point, n, sampling, &cloud, &c));
+	c.found.method = TEMPLATE;
+	if (!(mr_mesh_edge_scale(ctx, start) > 0))
+		return mr_fail(ctx, MR_EMESH, "the template's %zu vertices are at one place", start->nv);
+	MR_TRY(mr_wrap_dyn(ctx, start, &c.d));
+	MR_TRY(pull(ctx, &cloud, opts, true, &c));
+	MR_TRY(mr_wrap_settle(ctx, &cloud, opts, TEMPLATE_SETTLES, &c.d));
+	mr_unfold(&c.d);
+	MR_TRY(mr_wrap_assess(ctx, &cloud, &c));
+	put_result(ctx, &cloud, &c, result);
+	memcpy(p, c.d.p, start->nv * sizeof *p);
+	return MR_OK;
 }
