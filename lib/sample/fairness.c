@@ -1,12 +1,5 @@
-/*
- * How fair heights are to be, told by the noisy points alone.
- *
- * Where the heights of a plate differ from their neighbours' by u on the mean, and the points from the plate
- * by s, the most probable surface weighs the fairness by s^2 / u^2: less where it is bent, as at edges, than
- * where it is flat.  What that is to be multiplied with is found by generalised cross-validation (Golub,
- * Heath, Wahba 1979), which foretells how far points are that were left out: the least sum of w r^2 over (n -
- * trace)^2, with the trace of the matrix that takes the points' offsets to the fitted ones from one random
- * vector (Hutchinson 1990).
+/* How fair heights are to be, told by the noisy points alone, by generalised cross-validation (Golub, Heath,
+ * Wahba 1979): the least sum of w r^2 over (n - trace)^2, the trace from a random vector (Hutchinson 1990).
  */
 #include "base/parallel.h"
 #include "base/random.h"

@@ -1,8 +1,5 @@
-/*
- * Heights as a thin plate through data.  Fairness is the square of the umbrella (Kobbelt, Campagna, Vorsatz,
- * Seidel 1998: Interactive multi-resolution modeling on arbitrary meshes).  The matrix, whose rows reach two
- * rings, is not stored: conjugate gradients ask for its products only.
- */
+/* Heights as a thin plate through data, fair by the square of the umbrella (Kobbelt et al. 1998).  The
+ * matrix, whose rows reach two rings, is not stored: conjugate gradients ask for its products only. */
 #include "sample/height_energy.h"
 
 #include "base/parallel.h"

@@ -1,11 +1,6 @@
-/*
- * Heights fitted to the points by least squares.
- *
- * A point q has its nearest place on the displaced surface, on face f with barycentric coordinates b; with N
- * the normal of f its distance is N (q - sum b_i (v_i + h_i n_i)), linear in the heights.  Each pass
- * minimises the sum of the squares, each by its weight, with the fairness of the heights and a pull to those
- * found; then the places are looked for anew, by walking from the last ones.
- */
+/* Heights by least squares: a point's distance N (q - sum b_i (v_i + h_i n_i)) from its nearest place is
+ * linear in them.  Each pass minimises the sum, then looks for the places anew, by walking from the last
+ * ones. */
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "measure/gaps.h"

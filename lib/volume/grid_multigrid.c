@@ -1,7 +1,5 @@
-/*
- * Multigrid on the nodes of a grid (Briggs, Henson, McCormick 2000): red-black Gauss-Seidel, full weighting,
- * linear interpolation; the equation at a node is (6 + screen) u - sum of the six neighbours = b.
- */
+/* Multigrid on a grid's nodes (Briggs, Henson, McCormick 2000): red-black Gauss-Seidel, full weighting,
+ * linear interpolation; the equation is (6 + screen) u - sum of the six neighbours = b. */
 #include "volume/parts.h"
 
 #include "base/parallel.h"

@@ -1,10 +1,5 @@
-/*
- * The 256 cases are not a table that somebody typed but follow from one rule: on each face of a cube, every
- * run of inside corners is cut off by a segment.  The two cubes beside a face cut it alike, and the segments
- * of a cube form loops through the crossed edges, so each crossing of an edge of the grid lies on one fan of
- * four loops.  A loop is cut into triangles by diagonals that lie in no face of the cube, so that no two
- * loops share one: a fan around one of its edges, as there is in each of the cases.
- */
+/* The 256 cases follow from one rule: on each face of a cube every run of inside corners is cut off by a
+ * segment.  Segments form loops, cut into triangles by diagonals in no face, so that no two share one. */
 #include "volume/isosurface.h"
 
 #include "base/parallel.h"

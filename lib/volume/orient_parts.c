@@ -1,19 +1,11 @@
-/*
- * Signs of whole parts that agree with themselves.  No flood comes to the inner shell of a hollow body or far
- * into a bore, and what points there lie on is as much of a surface the other way round.  But the indicator
- * of bodies is 0 or 1: into a cavity that counts as a body it goes from 1 to 2, and from 0 to -1 into a body
- * that counts as a cavity.  On the surface it is 1/2, on one that is inside out 3/2 or -1/2.
- */
+/* Signs of whole parts that agree with themselves, where no flood comes.  The indicator of bodies is 0 or 1,
+ * on the surface 1/2: on one that is inside out it is 3/2 or -1/2. */
 #include "volume/parts.h"
 
 #include "base/disjoint_sets.h"
 
-/*
- * Of the rise: how far beyond 0 and 1 the indicator is at least on what is inside out, as the mean of a point
- * and its neighbours, and of the part; on an open surface it is near 0, and on one in a body near 1.  On
- * parts of hollow bodies, chains, pipes and cups it is 0.18 to 0.5 beyond, on those of two bodies that are
- * cut open 0.08 and 0.13.  By 0 around points rows of a sonar are torn, by 0.1 the bores of some pipes stay
- * bodies.
+/* Of the rise: how far beyond 0 and 1 the indicator is on what is inside out, around a point and of the part:
+ * 0.18 to 0.5 in hollow bodies, 0.13 at most of others.  By 0 rows of a sonar are torn, by 0.1 bores closed.
  */
 static const double BEYOND = 0.05, BEYOND_PART = 0.15;
 

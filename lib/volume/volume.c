@@ -1,16 +1,6 @@
-/*
- * The volume of a cloud without normals.
- *
- * Jeong and Kim flood the cells around the occupied ones.  A hole of the sampling lets a flood in, and walls
- * nearer than a cell keep it out; so here the flood is soft, a quantity that diffuses in from the faces of
- * the grid and is absorbed by the points.  It tells the side of the exposed points; planes alike pass that on
- * to hidden ones.  Where normals are given that fit the points they tell the sides instead.  Then the
- * indicator of the inside is the solution of a Poisson equation (Kazhdan, Bolitho, Hoppe 2006), normals of
- * hidden points against which it falls the wrong way are turned over, and it is solved again (Hou et al.
- * 2022, where the first signs are random); and so are whole parts on which it is that of no body.  The
- * surface is where the indicator has the value that it has at the points nearby, so that thin parts, where it
- * never rises to a half, are not lost.
- */
+/* The volume of a cloud without normals: a soft flood, absorbed by the points, tells the side of those
+ * exposed (Jeong, Kim 2001), planes alike pass it on, and the indicator (Kazhdan et al. 2006) corrects the
+ * hidden. */
 #include "volume/volume.h"
 
 #include "base/parallel.h"
@@ -40,13 +30,8 @@ static const double TURNED_LEAST = 2e-4; /* share of the points that is worth an
 static const double THIN = 1.8;          /* steps that the inside, or a gap, must measure */
 static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise across the surface */
 
-/*
- * The flood tears a smooth surface to both sides of which it comes: neighbours that are alike get unlike
- * signs.  TORN: their share by the root of the number of points, which is in proportion to the length of the
- * seam.  By loud votes alone it is 2.6 and more on 59 terrains, 0.4 at most on 58 closed bodies.  BOTH: the
- * share of the votes that are against the signs of a sheet.  0.43 and more on those terrains, 0.06 at most on
- * those bodies, 0.5 on one whose walls are thinner than its points are apart; on 59 that are cut open 0.28.
- */
+/* TORN: share of alike neighbours of unlike signs by the root of the points: 2.6 and more on 59 terrains, 0.4
+ * at most on 58 bodies.  BOTH: votes against a sheet's signs: 0.43 and more there, 0.06 at most here. */
 static const double TORN = 1, BOTH = 0.35;
 
 typedef struct volume {
@@ -112,11 +97,8 @@ useful_share(const mr_v3 *point, size_t n, double spacing, const mr_volume_opts 
 	return coarser > COARSER ? 1 / (coarser * coarser) : 1;
 }
 
-/*
- * Normals point outward as a whole where what they enclose, a third of the sum of area times n (p - c), is
- * not less than nothing (the divergence theorem).  Of 59 closed models that sum is 0.07 of the sum of its
- * terms' sizes of one, and 0.2 and more of the others.  Else all are turned over.
- */
+/* Turns all over where what they enclose is less than nothing (the divergence theorem): of 59 closed models
+ * the sum is 0.07 of its terms' sizes of one, and 0.2 and more of the others. */
 static bool
 turn_outward(mr_volume_cloud *s)
 {
@@ -271,11 +253,8 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 	return MR_OK;
 }
 
-/*
- * Half of what the indicator rises by across the surface.  Over thin parts it never does, and beside an open
- * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
- * median value at them.
- */
+/* Half of what the indicator rises by across the surface, or, as over thin parts it never does, the median
+ * value at some points where that is more. */
 static double
 half_rise(mr_ctx *ctx, const volume *v, const float *u)
 {
@@ -371,10 +350,8 @@ width(const mr_grid *g, const float *u, mr_v3 p, double at, mr_v3 d, double rise
 	return t;
 }
 
-/*
- * The value on the surface to be, near each point: that of the point; where the inside is thinner there than
- * the grid can hold, that of a place outside, so that it becomes thicker, and inversely in narrow gaps.
- */
+/* The value on the surface to be, near each point: its own; where the inside, or a gap, is thinner than the
+ * grid can hold, that of a place beyond, so that it becomes thicker. */
 static void
 measure_level(void *arg, size_t begin, size_t end)
 {
@@ -559,11 +536,8 @@ mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 	return MR_OK;
 }
 
-/*
- * Whether sides that are given are worth more than those that the flood finds.  Of the true normals of 120
- * clouds those of four are not so good, whose bodies are thinner than their points are apart; at random half
- * of the directions are near and half of the neighbours alike.
- */
+/* Whether given sides are worth more than the flood's: true normals of 116 of 120 clouds are so good; at
+ * random half of the directions are near and half of the neighbours alike. */
 static bool
 are_consistent(const mr_volume_sides *j, bool normals)
 {

@@ -1,7 +1,5 @@
-/*
- * Lids: what of a closed wrap spans no points.  Small holes of the sampling stay closed, wide openings are
- * cut out, along a line that is smooth and close to the outermost points.
- */
+/* Lids: what of a closed wrap spans no points.  Small holes stay closed, wide openings are cut out, along a
+ * line that is smooth and close to the outermost points. */
 #include "base/disjoint_sets.h"
 #include "base/sort.h"
 #include "measure/gaps.h"
@@ -27,10 +25,8 @@ static const double DOUBT = 1.4;
  * 0.47 to 1.14 of bodies, more where flat faces are bare or an open sheet is wrapped from both sides. */
 static const double FLICKERING = 1.2, SEEN = 2;
 
-/*
- * Spacings that the line goes back from where support ends, which other rims are nearer to points than.  The
- * line is then within 1.3 spacings of the outermost points, and closes over the gaps between them.
- */
+/* Spacings that the line goes back from where support ends, which other rims are nearer to points than: it is
+ * then within 1.3 spacings of the outermost points, and closes over the gaps between them. */
 static const double BACK = 1.25, RIM = 1;
 
 enum { SMOOTHINGS = 3, SETTLES = 4, POINTS_PER_EDGE = 4 };
@@ -243,16 +239,12 @@ mr_wrap_settle_open(
 }
 
 mr_status
-mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w)
+mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool flickering,
+    mr_wrap_lids *lids, mr_dyn *d)
 {
-	mr_mesh m = mr_dyn_view(&w->d, "control");
+	mr_mesh m = mr_dyn_view(d, "control");
+	size_t before = lids->openings;
 
-	w->lids = (mr_wrap_lids){ 0 };
-	if (o->lids == MR_LIDS_ALL)
-		return MR_OK;
-	MR_TRY(mr_wrap_cut(ctx, cloud, o->lids, o->lids == MR_LIDS_AUTO, &m, &w->lids));
-	if (w->lids.openings == 0)
-		return MR_OK;
-	MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, &w->d));
-	return mr_wrap_assess(ctx, cloud, w);
+	MR_TRY(mr_wrap_cut(ctx, cloud, o->lids, flickering, &m, lids));
+	return lids->openings > before ? mr_wrap_settle_open(ctx, cloud, o, &m, d) : MR_OK;
 }

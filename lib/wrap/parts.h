@@ -113,8 +113,9 @@ mr_status mr_wrap_cut(
 mr_status mr_wrap_settle_open(
     mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_mesh *m, mr_dyn *d);
 
-/* Cuts what the options say out of w, closed, and settles the rest. */
-mr_status mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
+/* Cuts so out of d what the options say, and settles the rest where there was something. */
+mr_status mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool flickering,
+    mr_wrap_lids *lids, mr_dyn *d);
 
 /* A height field over the plane of axis[0] and axis[1]: its points, and where they are in this. */
 typedef struct mr_wrap_field {

@@ -1,21 +1,12 @@
-/*
- * Height fields: terrain, reliefs, scans from one side.  A flat lattice under the points, cut to their
- * outline and lifted onto them.  What lies over the rest of the points, as a table over a floor, is a field
- * of its own.
- */
+/* Height fields: a flat lattice under the points, cut to their outline and lifted onto them.  What lies over
+ * the rest of the points, as a table over a floor, is a field of its own. */
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "space/local_planes.h"
 #include "wrap/parts.h"
 
-/*
- * A cloud is a height field over a plane where hardly any of its own planes is within 12 degrees of upright
- * on it, neighbours in the projection lie on each other's planes, and noise does not hide that.  Of 20 clouds
- * of terrain, reliefs and scans from one side, and of cities seen from the air, 0 to 2.4 % of the planes are
- * upright and 0 to 15 % of the pairs off.  Of 325 clouds of 54 closed models, whole and cut, 11 have less
- * than 3 % upright, and of these 20 % are off for half a body, 32 to 56 % for others, but for a thin plate as
- * noisy as thick.
- */
+/* A height field: of 20 up to 2.4 % of the planes are within 12 degrees of upright and 15 % of the pairs off;
+ * of 325 clouds of closed models 11 have so few upright, and of these 20 % and more are off. */
 static const double UPRIGHT = 0.2;       /* cosine to the normal of the plane */
 static const double UPRIGHT_MOST = 0.03; /* share of the planes */
 static const double OFF = 1, NOISE = 4;  /* spacings and deviations of noise from a plane, that are off it */
@@ -423,15 +414,11 @@ make_sheet(mr_ctx *ctx, const mr_wrap_field *f, const mr_wrap_opts *o, mr_wrap_l
 static mr_status
 wrap_field(mr_ctx *ctx, const mr_wrap_field *f, const mr_wrap_opts *o, mr_wrap_lids *lids, mr_dyn *d)
 {
-	size_t openings;
 	mr_mesh m;
 
 	MR_TRY(make_sheet(ctx, f, o, lids, &m));
 	MR_TRY(mr_wrap_settle_open(ctx, &f->cloud, o, &m, d));
-	m = mr_dyn_view(d, "control");
-	openings = lids->openings;
-	MR_TRY(mr_wrap_cut(ctx, &f->cloud, o->lids, false, &m, lids));
-	return lids->openings > openings ? mr_wrap_settle_open(ctx, &f->cloud, o, &m, d) : MR_OK;
+	return mr_wrap_open(ctx, &f->cloud, o, false, lids, d);
 }
 
 static void

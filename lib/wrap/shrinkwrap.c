@@ -89,7 +89,9 @@ wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_w
 	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m, &c->found.volume));
 	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
 	MR_TRY(mr_wrap_finish(ctx, cloud, o, c));
-	return mr_wrap_open(ctx, cloud, o, c);
+	if (o->lids != MR_LIDS_ALL)
+		MR_TRY(mr_wrap_open(ctx, cloud, o, o->lids == MR_LIDS_AUTO, &c->lids, &c->d));
+	return c->lids.openings > 0 ? mr_wrap_assess(ctx, cloud, c) : MR_OK;
 }
 
 /* Height fields as such, unless they are to be closed. */

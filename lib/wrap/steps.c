@@ -43,10 +43,8 @@ level(const step *s, uint32_t v, mr_v3 n)
 	return trust(s, v) * mr_dot(to, n) / weights;
 }
 
-/*
- * v + lambda Lt + alpha of the way to the points' level: L = mean_j(v_j) - v over the ring, Lt = L - (L.n) n.
- * A boundary is not drawn in.
- */
+/* v + lambda Lt + alpha of the way to the points' level: L = mean_j(v_j) - v over the ring, Lt = L - (L.n) n.
+ * A boundary is not drawn in. */
 static mr_v3
 target(const step *s, uint32_t v)
 {
