@@ -139,7 +139,7 @@ mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, mr_fit_gu
 
 	g->level = s->level;
 	layer_new(ctx, g, 0, MR_FOLD, &g->control);
-	layer_new(ctx, g, MR_FIT_FINE, MR_NEAR_FOLD, &g->fine);
+	layer_new(ctx, g, MR_FIT_LEVEL, MR_NEAR_FOLD, &g->fine);
 	memcpy(g->control.to, x, s->level[0].nv * sizeof *x);
 	MR_TRY(look(ctx, g));
 	rest(&g->control);

@@ -14,7 +14,7 @@ mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease,
 	mr_fit_surface r;
 	const mr_loop *fine = &r.level[MR_FIT_LEVEL];
 
-	MR_TRY(mr_loop_levels(ctx, control, 180, crease, MR_FIT_FINE, r.level));
+	MR_TRY(mr_loop_levels(ctx, control, 180, crease, MR_FIT_LEVEL, r.level));
 	MR_TRY(mr_loop_limit_matrix(ctx, r.level, MR_FIT_LEVEL, &r.s));
 	r.node = MR_NEW(ctx, fine->nv, mr_v3);
 	r.m = (mr_mesh){ control->name, r.node, fine->t, fine->nv, fine->nf };

@@ -13,8 +13,7 @@
 #include "subdivide/loop.h"
 
 enum {
-	MR_FIT_LEVEL = 2,
-	MR_FIT_FINE = 3,      /* the level that is to pass nowhere through itself */
+	MR_FIT_LEVEL = 2,     /* it is to pass nowhere through itself there */
 	MR_FIT_CHILDREN = 16, /* triangles of level 2 in a control face */
 	MR_FIT_PATCHES = 4,   /* triangles of level 1 */
 	MR_FIT_PATCH = 6,     /* nodes of one */
@@ -22,7 +21,7 @@ enum {
 };
 
 typedef struct mr_fit_surface {
-	mr_loop level[MR_FIT_FINE + 1];
+	mr_loop level[MR_FIT_LEVEL + 1];
 	mr_sparse s; /* nodes as combinations of the control vertices */
 	mr_mesh m;   /* the nodes and the triangles of level 2 */
 	mr_v3 *node; /* of m */

@@ -10,8 +10,9 @@ enum { ROUNDS = 4 };
  * them, and a fit to points as few would have to blow them up.
  */
 enum { POINTS_A_FACE = 32, LIMBS = 300, LEAST_POINTS_A_FACE = 4, ROUND = 20 };
-/* The faces that a thin or jagged surface may have: on level 3, twice as many vertices as there are points. */
-enum { MOST_POINTS_A_FACE = 17 };
+/* With at most 16 points a face level 3 has at most twice as many vertices as there are points; a surface that
+ * needs more, thin or jagged, has so many that level 2 has more vertices than points. */
+enum { MOST_POINTS_A_FACE = 17, FINE_POINTS_A_FACE = 5 };
 
 /* Densities beyond these shares of the mean are cut off: gaps and outliers are no surface. */
 static const double LEAST = 0.1, MOST = 10;
@@ -48,20 +49,30 @@ least_faces(size_t n)
 	return least < ROUND ? ROUND : least < LIMBS ? least : LIMBS;
 }
 
-size_t
-mr_simplify_faces_for(size_t n)
+static size_t
+one_face_for(size_t points, size_t n)
 {
-	size_t count = n / POINTS_A_FACE, least = least_faces(n);
+	size_t count = n / points, least = least_faces(n);
 
 	return count > least ? count : least;
 }
 
 size_t
+mr_simplify_faces_for(size_t n)
+{
+	return one_face_for(POINTS_A_FACE, n);
+}
+
+size_t
 mr_simplify_most_faces_for(size_t n)
 {
-	size_t most = n / MOST_POINTS_A_FACE, least = least_faces(n);
+	return one_face_for(MOST_POINTS_A_FACE, n);
+}
 
-	return most > least ? most : least;
+size_t
+mr_simplify_fine_faces_for(size_t n)
+{
+	return one_face_for(FINE_POINTS_A_FACE, n);
 }
 
 mr_status

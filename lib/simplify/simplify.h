@@ -33,6 +33,9 @@ size_t mr_simplify_faces_for(size_t n);
 /* The most that it may have for the sake of its distance from them. */
 size_t mr_simplify_most_faces_for(size_t n);
 
+/* What it has where these are too few. */
+size_t mr_simplify_fine_faces_for(size_t n);
+
 /*
  * The weights that make a control mesh dense where points are: areas of the surface m, near the points,
  * count by how densely they lie there, so that a point counts as much as any other.  weight: m->nv, the

@@ -22,7 +22,7 @@ mr-info --json -l mesh result.mrs >mesh.json
 awk -v faces="$(figure control.json faces)" -v far="$(figure result.json surface_to_points_max)" -v volume="$(figure mesh.json volume)" \
     -v euler="$(figure mesh.json euler)" 'BEGIN {
 	print "genus", 1 - euler / 2
-	print (faces > 312 && faces < 1250 ? "more faces than by the points" : faces " faces")
+	print (faces > 312 && faces <= 2000 ? "more faces than by the points" : faces " faces")
 	print (far < 0.1 ? "no webs" : "webs " far " wide")
 	volume /= 12 * 0.2 * 0.2 * 1.8 + 8 * 0.2 ^ 3
 	print (volume > 0.97 && volume < 1.01 ? "its volume" : volume " of its volume") }'
