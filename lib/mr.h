@@ -528,7 +528,7 @@ typedef struct mr_volume_result {
 	double spacing, cell;  /* side of the square that a point stands for; of a cell */
 	double noise;          /* squares of so many spacings show a surface: at least 1 */
 	size_t levels_alike;   /* values of the indicator of the same topology */
-	double euler, euler_beside; /* Euler number; that of a level nearby which is not alike */
+	double euler;          /* Euler number */
 	bool turned;                /* the sides of the points were inside, and are turned over */
 } mr_volume_result;
 

@@ -60,9 +60,8 @@ spread(mr_ctx *ctx, const mr_heights *e, size_t rounds, double *x)
 void
 mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor)
 {
-	/* what a ring or three show is the noise: of five models with 1 % of it the mean distance from the
-	 * truth is 0.205 % of the diagonal with 3 rounds, 0.195 with 8, and 0.200 with the same fairness
-	 * everywhere */
+	/* what fewer rounds show is the noise: 1 % of it leaves 0.205 % of the diagonal with 3, 0.195 with 8
+	 */
 	enum { ROUNDS = 8 };
 	static const double least = 1. / 300, most = 30;
 	mr_mark mark = mr_mark_take(ctx);

@@ -211,10 +211,8 @@ find_folds(mr_ctx *ctx, fit *x)
 	return count;
 }
 
-/*
- * Where the surface folds or crosses itself, the heights are larger than the domain's radius of curvature, or
- * half its way to itself: they are pulled towards the domain, each time more, and are to be fairer.
- */
+/* Where the surface folds or crosses itself, the heights exceed the domain's radius of curvature, or half its
+ * way to itself: they are pulled towards the domain, each time more, and are to be fairer. */
 static void
 press(fit *x)
 {
@@ -468,13 +466,8 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 	return passes > 0 ? mend_all(ctx, x, folds) : find_bad(ctx, x, folds);
 }
 
-/*
- * Where points are fewer than vertices, the triangles found at several of these tell what three points do,
- * and the plate is as stiff as one whose vertices are as far apart as the points are.  Heights that moving
- * least squares found are means of many points everywhere.  Of clouds whose density varies 60 times, of 54
- * models, the mean distance from the truth is 0.088 % of the diagonal, with the pull alone 0.092 and without
- * this 0.096; with it for noise of 1 % edges are 10 to 20 % farther, and smooth models 10 % nearer.
- */
+/* Where points are fewer than vertices the plate is as stiff as one whose vertices are as far apart as the
+ * points: of 54 uneven clouds the mean distance is 0.088 % of the diagonal, without this 0.096. */
 static void
 set_weights(mr_ctx *ctx, const mr_domain *d, const bool *hit, const uint32_t *nearest, fit *x)
 {

@@ -145,12 +145,8 @@ report_filled(mr_ctx *ctx, const mr_domain *d, bool fitted, const mr_sample_resu
 		    &(mr_finding){ .kind = MR_FILLED, .count = r->filled, .of = d->m.nv, .what = "heights" });
 }
 
-/*
- * Weights for points with noise.  The fairness is that of the first pass, before the points tell it
- * (fairness.c): the feet of points on a surface that follows them are where their noise looks like shape.  On
- * six models with 1 % of noise 0.186 and 0.181 % of the diagonal from the truth and back, with 1e3 0.209 and
- * 0.213.
- */
+/* Weights for points with noise, before the points tell the fairness.  On six models with 1 % of noise 0.186
+ * and 0.181 % of the diagonal from the truth and back, with 1e3 0.209 and 0.213. */
 static mr_fit_weights
 noisy_weights(const mr_sample_cloud *c)
 {
@@ -169,10 +165,8 @@ is_noisy(const mr_sampling *s)
 	return s->noise > MR_NOISY * s->usual || (double)s->outliers > OUTLYING * (double)s->places;
 }
 
-/*
- * Takes back the heights at creases and beside them: the triangles that a line met there cut corners off. The
- * fit finds others.  Without this sharp edges of fandisk are 0.10 % of the diagonal away, with it 0.04.
- */
+/* Takes back the heights at creases and beside them: triangles met there cut corners off.  Without this sharp
+ * edges of fandisk are 0.10 % of the diagonal away, with it 0.04. */
 static void
 leave_creases(mr_ctx *ctx, const mr_domain *d, bool *hit)
 {

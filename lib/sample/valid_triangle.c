@@ -127,10 +127,8 @@ typedef struct search {
 	uint32_t *nearest; /* point of each vertex */
 } search;
 
-/*
- * The k nearest points lie in a disc about the foot of v on the surface: of squared radius R^2 = d_k^2 -
- * d_1^2, so one point has the area pi R^2 / k.
- */
+/* The k nearest points lie in a disc about the foot of v on the surface: of squared radius R^2 = d_k^2 -
+ * d_1^2, so one point has the area pi R^2 / k. */
 static mr_bounds
 bounds_of(const double *near2, size_t k)
 {

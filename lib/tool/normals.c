@@ -1,5 +1,5 @@
 /* mr-normals: normals of points and of surfaces. */
-#include "volume/normals.h"
+#include "volume/volume.h"
 
 #include "base/options.h"
 #include "mesh/layers.h"

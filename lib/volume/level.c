@@ -140,15 +140,6 @@ lasting_run(const int64_t *euler)
 	return best;
 }
 
-/* The level beside the run, towards the middle or over it. */
-static int
-beside(run r)
-{
-	bool below = r.last == LEVELS - 1 || (r.first > 0 && r.first + r.last > 2 * MIDDLE);
-
-	return below ? r.first - 1 : r.last + 1;
-}
-
 static float
 level_of(double rise, int i)
 {
@@ -172,8 +163,6 @@ mr_volume_level(mr_ctx *ctx, const mr_walls *w, const mr_grid *g, const float *f
 	r = lasting_run(euler);
 	result->levels_alike = (size_t)(r.last - r.first) + 1;
 	result->euler = (double)euler[r.first];
-	if (result->levels_alike < LEVELS)
-		result->euler_beside = (double)euler[beside(r)];
 	*level = level_of(rise, nearest_of(r));
 	return MR_OK;
 }

@@ -154,7 +154,7 @@ mr_status mr_volume_surface(
 
 /*
  * The level of f, negative inside, nearest to 0 whose topology lasts.  rise: of the indicator across the
- * surface, the unit of f.  Fills the result's euler, levels_alike and, where these are not all, euler_beside.
+ * surface, the unit of f.  Fills the result's euler and levels_alike.
  */
 mr_status mr_volume_level(mr_ctx *ctx, const mr_walls *w, const mr_grid *g, const float *f, double rise,
     float *level, mr_volume_result *result);

@@ -39,4 +39,14 @@ typedef struct mr_volume_opts {
 mr_status mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out,
     mr_volume_result *result);
 
+/*
+ * Unit normals of n distinct places along the Z curve, of least squares through `neighbours` nearest of the
+ * sampling.  toward: n directions to the side that a normal is on, of any length, 0 where none is known:
+ * there neighbours tell, and of parts that have none at all it is as without.  Without toward (NULL) they
+ * point out of what the places enclose, as mr_volume_wrap finds it; those of flat clouds point all to one
+ * side.  MR_EMESH of fewer than three places, and on a line. normal: n, the caller's.
+ */
+mr_status mr_places_normals(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, const mr_v3 *toward,
+    mr_v3 *normal) MR_WARN_UNUSED;
+
 #endif

@@ -54,20 +54,12 @@ make_cube(mr_ctx *ctx, mr_box box, size_t r, mr_mesh *cube)
 	return MR_OK;
 }
 
-/* So many edges a side that the cube has half as many vertices again as there are points: 6 r^2 = 1.5 n. */
-static size_t
-resolution_for(const mr_wrap_cloud *cloud)
-{
-	size_t r = (size_t)ceil(sqrt((double)cloud->n / 4));
-
-	return r < 4 ? 4 : r;
-}
-
-/* Section 3.1.1, to the letter, or so that no face turns. */
+/* Section 3.1.1, to the letter, or so that no face turns.  The cube has half as many vertices again as there
+ * are points: 6 r^2 = 1.5 n. */
 static mr_status
 wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool guarded, mr_wrap *c)
 {
-	size_t r = o->resolution ? o->resolution : resolution_for(cloud);
+	size_t r = o->resolution ? o->resolution : (size_t)fmax(4, ceil(sqrt((double)cloud->n / 4)));
 	mr_mesh cube;
 
 	c->found.method = MR_WRAP_CUBE;
@@ -138,8 +130,10 @@ report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	if (cloud->n < SURE_LEAST || cloud->spacing > SURE_MOST * cloud->diagonal)
 		report_uncertain(ctx, ": so few points hide handles", NULL);
 	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
-		report_uncertain(
-		    ctx, mr_format(ctx, ": Euler number %g or %g", v->euler, v->euler_beside), NULL);
+		report_uncertain(ctx,
+		    mr_format(ctx, ": Euler number %g is that of %zu levels of %d", v->euler, v->levels_alike,
+			MR_VOLUME_LEVELS),
+		    NULL);
 	else if (l->doubtful > 0)
 		report_uncertain(ctx,
 		    mr_format(ctx, ": an opening %.3g sampling distances wide is %s, and may not be meant so",
