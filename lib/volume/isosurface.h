@@ -35,11 +35,8 @@ mr_grid_place(const mr_grid *g, size_t x, size_t y, size_t z)
 	return mr_axpy(g->step, mr_vec((double)x, (double)y, (double)z), g->origin);
 }
 
-/*
- * The surface of the nodes where f is below the level, in the arena: some 1.5 vertices per squared step of
- * area. f: a finite value for each node, not below the level on the faces of the grid.  No face where no node
- * is inside.
- */
+/* The surface of the nodes where f is below the level; none where no node is inside, in the arena.  f:
+ * finite, not below the level on the faces of the grid. */
 mr_status mr_isosurface(mr_ctx *ctx, const mr_grid *g, const float *f, float level, mr_mesh *out);
 
 #endif

@@ -36,17 +36,15 @@ mr_status mr_volume_planes(mr_ctx *ctx, const mr_sampling *of, mr_volume_cloud *
 /* Gives normals the signs by which they point out of what the points enclose.  volume.c */
 mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
 
-/* Gives normals the signs by which they are on the side that the directions say, of any length, 0 or no
- * number where none is known: there neighbours tell, as everywhere where toward is NULL.  *untold: how many
- * points are of parts in which no direction tells a side.  orient_toward.c */
+/* Gives normals the signs of the directions, 0 or no number where none is known: there neighbours tell, as
+ * everywhere where toward is NULL.  *untold: points of parts that no direction tells.  orient_toward.c */
 mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
 
 /* Reports MR_UNCERTAIN where neighbours on alike planes have signs that are not.  volume.c */
 void mr_volume_report_patches(mr_ctx *ctx, const mr_volume_cloud *s);
 
-/* What directions are worth: how many tell a side; what share of those that are there is within 60 degrees of
- * their planes' normals; and what share of neighbours on alike planes get signs from them that are alike. NaN
- * of none. */
+/* What directions are worth: how many tell a side; shares of those within 60 degrees of their planes'
+ * normals, and of neighbours on alike planes that get alike signs from them.  NaN of none. */
 typedef struct mr_volume_sides {
 	size_t told;
 	double near, alike;

@@ -131,7 +131,7 @@ report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		report_uncertain(ctx, ": so few points hide handles", NULL);
 	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
 		report_uncertain(ctx,
-		    mr_format(ctx, ": Euler number %g is that of %zu levels of %d", v->euler, v->levels_alike,
+		    mr_format(ctx, ": Euler number %g is that of %zu of %d levels", v->euler, v->levels_alike,
 			MR_VOLUME_LEVELS),
 		    NULL);
 	else if (l->doubtful > 0)
