@@ -559,7 +559,7 @@ typedef struct mr_simplify_opts {
 	const char *to;       /* layer that is written; NULL: the one that is simplified */
 	const char *map;      /* layer that keeps the surface, with its places on the result; NULL: none */
 	const char *layer;    /* NULL: control, else base, else mesh */
-	uint8_t **sharp;      /* NULL: none are kept; else gets those of the result: see simplify/simplify.h */
+	uint8_t **sharp;      /* NULL: none are kept; else in and out: see simplify/simplify.h */
 } mr_simplify_opts;
 
 #define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, false, NULL, NULL, NULL, NULL, NULL)
