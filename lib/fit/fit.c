@@ -268,7 +268,7 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 }
 
 mr_status
-mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *point, size_t n,
+mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *point, size_t n, bool of_mesh,
     const mr_sampling *known, const mr_fit_opts *opts, mr_v3 *out, mr_fit_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -300,6 +300,9 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 		drop_outliers(ctx, &sampling, NEAR * edge, sorted, spacing, foot, &n, &r.outliers);
 	noise = is_local || sampling.usual == 0 ? 0 : sampling.noise / sampling.usual;
 	before = mr_fit_measure(ctx, foot, n);
+	/* made of that mesh it lies on it: passes would bend what is flat beside creases */
+	if (of_mesh && crease && !is_local && opts->iterations == 0 && before.mean < NEAR * edge)
+		passes = 0;
 	r.folded_edges_before = count_folds(ctx, &s);
 	MR_TRY(is_local
 		   ? local(ctx, &s, sorted, n, opts, passes, x)

@@ -195,13 +195,13 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 }
 
 /* Lets errors be larger, where there are more faces than the most, or needles be thinner; each once, for the
- * sake of a number of faces. */
+ * sake of a number of faces.  Of a mesh with sharp edges larger errors would close pockets and bend flats. */
 static bool
 relax(simplifier *s)
 {
 	bool first = s->needle > LAST_NEEDLE && s->target > 0;
 
-	if (s->most > 0 && s->faces > s->most) {
+	if (s->most > 0 && s->faces > s->most && (!s->d.curve || s->o->weight)) {
 		s->target = s->most;
 		s->most = 0;
 		return true;

@@ -64,7 +64,8 @@ fit(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *o, mr_fit_result *r)
 	if (!strcmp(layer, "control"))
 		MR_TRY(mr_sample_report_move(ctx, f, from));
 	p = MR_NEW(ctx, control.nv, mr_v3);
-	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, r));
+	MR_TRY(mr_fit(
+	    ctx, &control, crease, points.p, points.nv, mr_sample_meets_faces(f, from), known, o, p, r));
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }
 

@@ -57,7 +57,7 @@ test_surface_is_found_again(void **state)
 		mr_fit_result found;
 		o.fairness = 1e-6;
 		o.iterations = 20;
-		assert_int_equal(mr_fit(&ctx, &near, NULL, point, n, NULL, &o, out, &found), MR_OK);
+		assert_int_equal(mr_fit(&ctx, &near, NULL, point, n, false, NULL, &o, out, &found), MR_OK);
 		assert_true(found.distance_rms_before > 5e-3);
 		assert_true(found.distance_rms_after < rms[i]);
 	}
@@ -109,7 +109,8 @@ test_icosahedron_becomes_the_best_sphere(void **state)
 
 	(void)state;
 	assert_int_equal(
-	    mr_fit(&ctx, &m, NULL, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
+	    mr_fit(&ctx, &m, NULL, point, 4000, false, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL),
+	    MR_OK);
 	for (int v = 0; v < 12; v++) {
 		assert_true(fabs(mr_norm(out[v]) / mr_norm(out[0]) - 1) < 2e-2);
 		assert_true(mr_dist(mr_unit(out[v]), mr_unit(m.p[v])) < 2e-2);
@@ -127,7 +128,8 @@ test_what_has_no_points_stays(void **state)
 
 	(void)state;
 	assert_int_equal(
-	    mr_fit(&ctx, &m, NULL, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, &found), MR_OK);
+	    mr_fit(&ctx, &m, NULL, point, 4000, false, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, &found),
+	    MR_OK);
 	for (size_t v = 0; v < m.nv; v++)
 		most = m.p[v].z < -0.3 ? fmax(most, mr_dist(out[v], m.p[v])) : most;
 	assert_true(found.distance_rms_after < 1e-3);
@@ -148,7 +150,8 @@ test_outliers_pull_little(void **state)
 	for (size_t i = 0; i < 5000; i += 50)
 		point[i] = mr_mul(0.2 + 1.5 * mr_random_real(&r), point[i]);
 	assert_int_equal(
-	    mr_fit(&ctx, &m, NULL, point, 5000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
+	    mr_fit(&ctx, &m, NULL, point, 5000, false, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL),
+	    MR_OK);
 	m.p = out;
 	assert_int_equal(mr_fit_surface_build(&ctx, &m, NULL, &s), MR_OK);
 	for (size_t v = 0; v < s.m.nv; v++)
