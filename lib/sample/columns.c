@@ -53,10 +53,10 @@ weigh_vertices(void *arg, size_t begin, size_t end)
 		weigh(j, i, j->parent + i * NEAREST, j->weight + i * NEAREST);
 }
 
-/* What is farther from the median than so many times as half of the points are, is a spot. */
+/* A value is a spot if its distance from the median is over so many times the median distance. */
 static const double FAR = 6;
 
-/* Adds to how far each is from the median that of component k. */
+/* Adds the distances of component k from its median. */
 static void
 add_distances(const mr_carried *c, size_t k, const uint32_t parent[NEAREST], const double weight[NEAREST],
     double far[NEAREST])

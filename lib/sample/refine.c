@@ -211,8 +211,8 @@ find_folds(mr_ctx *ctx, fit *x)
 	return count;
 }
 
-/* Where the surface folds or crosses itself, the heights exceed the domain's radius of curvature, or half its
- * way to itself: they are pulled towards the domain, each time more, and are to be fairer. */
+/* A surface that folds or crosses itself has heights that are too large for its domain: they are pulled
+ * towards it and made fairer, each time more. */
 static void
 press(fit *x)
 {
@@ -466,8 +466,8 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 	return passes > 0 ? mend_all(ctx, x, folds) : find_bad(ctx, x, folds);
 }
 
-/* Where points are fewer than vertices the plate is as stiff as one whose vertices are as far apart as the
- * points: of 54 uneven clouds the mean distance is 0.088 % of the diagonal, without this 0.096. */
+/* A plate with more vertices than points is as stiff as one with a vertex for each point: of 54 uneven clouds
+ * the mean distance is 0.088 % of the diagonal, without this 0.096. */
 static void
 set_weights(mr_ctx *ctx, const mr_domain *d, const bool *hit, const uint32_t *nearest, fit *x)
 {

@@ -20,8 +20,8 @@ static const double REACH = 3, FLAT = 0.002, THROUGH = 0.3;
 enum { SOME = 512 };
 static const double SHARP = 0.033;
 
-/* Of the normals' second moment, an eigenvalue in the largest: less is no plane of its own.  Two planes have
- * tan^2 of half the angle: so 35 degrees. */
+/* Least ratio of eigenvalues of the normals' second moment that counts as a second plane: tan^2 of half the
+ * angle between two, so 35 degrees. */
 static const double OWN = 0.1;
 
 /* How far a vertex of a wrap goes: further on it is one of the next row. */
@@ -36,7 +36,7 @@ static const double ALIKE = 25;
 /* The cosine between a face and its side: less is a fold. */
 static const double UPRIGHT = 0.5;
 
-/* Of the points within SEEN of an edge, the share that lies ON a side of it. */
+/* A sharp edge has at least SHARE_ON of the points within SEEN of it within ON of one of its two planes. */
 enum { LEAST_SEEN = 4 };
 static const double SEEN = 2, ON = 0.25, SHARE_ON = 0.75;
 
