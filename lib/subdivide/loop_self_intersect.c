@@ -7,7 +7,7 @@
 #include "subdivide/loop_self_intersect.h"
 
 #include "base/parallel.h"
-#include "space/bvh.h"
+#include "mesh/zorder.h"
 #include "space/self_intersect.h"
 
 enum { GRAIN = 16, LEVELS = 16 };
@@ -27,12 +27,14 @@ struct mr_loop_tree {
 	const mr_loop *level;
 	size_t n;
 	const mr_v3 *p;
-	mr_v3 center;       /* of the surface's box when all of it was looked at first */
-	double unit;        /* about one over its size; 0 before */
-	node *node[LEVELS]; /* of the triangles of each level */
-	mr_mesh roots;      /* of the triangles of level 0 ones with their boxes */
-	mr_bvh *bvh;        /* over these */
-	const bool *moved;  /* triangles of level 0; NULL: all */
+	mr_v3 center;        /* of the surface's box when all of it was looked at first */
+	double unit;         /* about one over its size; 0 before */
+	node *node[LEVELS];  /* of the triangles of each level */
+	uint32_t *order;     /* the roots, the triangles of level 0, along the Z curve */
+	node *above[LEVELS]; /* boxes of 4^k roots in that order, from k = 1 to the one box of all */
+	size_t top;          /* k of it */
+	const bool *moved;   /* roots; NULL: all */
+	bool *due;           /* roots of which all crossings are looked for */
 	bool *crosses;
 };
 
@@ -91,6 +93,15 @@ make_leaf(const tree *x, uint32_t f, node *d)
 		mr_norm2(n) > 0 ? 0 : NONE };
 }
 
+static void
+enclose(node *d, const node *part)
+{
+	for (int i = 0; i < 3; i++) {
+		d->lo[i] = fminf(d->lo[i], part->lo[i]);
+		d->hi[i] = fmaxf(d->hi[i], part->hi[i]);
+	}
+}
+
 /* The box and the cone of the four parts. */
 static void
 join(const node *part, node *d)
@@ -99,12 +110,11 @@ join(const node *part, node *d)
 
 	*d = part[0];
 	d->angle = NONE;
-	for (int k = 0; k < 4; k++)
-		for (int i = 0; i < 3; i++) {
-			d->lo[i] = fminf(d->lo[i], part[k].lo[i]);
-			d->hi[i] = fmaxf(d->hi[i], part[k].hi[i]);
+	for (int k = 0; k < 4; k++) {
+		enclose(d, &part[k]);
+		for (int i = 0; i < 3; i++)
 			sum[i] += part[k].angle < 0 ? 0 : part[k].axis[i];
-		}
+	}
 	length = sqrtf(dot3(sum, sum));
 	for (int i = 0; i < 3; i++)
 		d->axis[i] = length > 0 ? sum[i] / length : 0;
@@ -165,6 +175,12 @@ leaves_agree(const node *a, const node *b)
 	return dot3(a->axis, b->axis) > 0.5F;
 }
 
+static bool
+crosses(const tree *x, uint32_t f)
+{
+	return __atomic_load_n(&x->crosses[f], __ATOMIC_RELAXED);
+}
+
 static void
 test_leaves(const tree *x, uint32_t f, uint32_t g)
 {
@@ -172,15 +188,19 @@ test_leaves(const tree *x, uint32_t f, uint32_t g)
 	const mr_tri *t = x->level[x->n].t;
 	mr_v3 p[3], q[3];
 
-	if (x->crosses[f] || a->angle < 0 || b->angle < 0 || (leaves_agree(a, b) && touch(t[f], t[g])))
+	if (a->angle < 0 || b->angle < 0 || (crosses(x, f) && crosses(x, g)) ||
+	    (leaves_agree(a, b) && touch(t[f], t[g])))
 		return;
 	corners(x, f, p);
 	corners(x, g, q);
-	x->crosses[f] = !mr_triangle_degenerate(p[0], p[1], p[2]) &&
-	                !mr_triangle_degenerate(q[0], q[1], q[2]) && mr_triangles_intersect(p, q);
+	if (mr_triangles_intersect(p, q) && !mr_triangle_degenerate(p[0], p[1], p[2]) &&
+	    !mr_triangle_degenerate(q[0], q[1], q[2])) {
+		__atomic_store_n(&x->crosses[f], true, __ATOMIC_RELAXED);
+		__atomic_store_n(&x->crosses[g], true, __ATOMIC_RELAXED);
+	}
 }
 
-/* Marks the parts of f that pass through parts of g. */
+/* Marks the parts of f and of g that pass through one another. */
 static void
 test_pair(const tree *x, size_t k, uint32_t f, uint32_t g)
 {
@@ -208,73 +228,61 @@ test_self(const tree *x, size_t k, uint32_t f)
 		return;
 	for (uint32_t i = 4 * f; i < 4 * f + 4; i++) {
 		test_self(x, k + 1, i);
-		for (uint32_t j = 4 * f; j < 4 * f + 4; j++)
-			if (i != j)
-				test_pair(x, k + 1, i, j);
+		for (uint32_t j = i + 1; j < 4 * f + 4; j++)
+			test_pair(x, k + 1, i, j);
 	}
 }
 
-/* A triangle of level 0 whose box is looked at. */
-typedef struct looking {
-	const tree *x;
-	uint32_t f;
-} looking;
-
-static mr_box
-box_of(const node *d)
+static size_t
+count_above(const tree *x, size_t k)
 {
-	return (mr_box){ { (double)d->lo[0], (double)d->lo[1], (double)d->lo[2] },
-		{ (double)d->hi[0], (double)d->hi[1], (double)d->hi[2] } };
+	return (x->level[0].nf + (((size_t)1 << 2 * k) - 1)) >> 2 * k;
 }
 
-static bool
-stands(void *arg, uint32_t g)
+/* Tests root f against those of the i-th box of 4^k, each pair once. */
+static void
+test_above(const tree *x, size_t k, size_t i, uint32_t f)
 {
-	const looking *l = arg;
+	size_t end;
 
-	return !l->x->moved[g];
+	if (k == 0) {
+		uint32_t g = x->order[i];
+		if (g > f || (g < f && !x->due[g]))
+			test_pair(x, 0, f, g);
+		return;
+	}
+	if (apart(&x->above[k][i], &x->node[0][f]))
+		return;
+	end = count_above(x, k - 1);
+	for (size_t j = 4 * i; j < 4 * i + 4 && j < end; j++)
+		test_above(x, k - 1, j, f);
 }
 
-/* Whether to look at the parts of f: it or one whose box meets its own has moved, or what a part passed
- * through may have. */
-static bool
-is_due(const tree *x, uint32_t f)
-{
-	size_t parts = x->level[x->n].nf / x->level[0].nf;
-
-	if (!x->moved || x->moved[f])
-		return true;
-	for (size_t k = parts * f; k < parts * f + parts; k++)
-		if (x->crosses[k])
-			return true;
-	return !mr_bvh_overlap(x->bvh, box_of(&x->node[0][f]), stands, &(looking){ x, f });
-}
-
-static bool
-test_root(void *arg, uint32_t g)
-{
-	const looking *l = arg;
-
-	if (g != l->f)
-		test_pair(l->x, 0, l->f, g);
-	return true;
-}
-
-/* Marks the parts of triangles of level 0 that pass through any. */
+/* Marks the parts of due roots that pass through any, and these. */
 static void
 search(void *arg, size_t begin, size_t end)
 {
 	const tree *x = arg;
-	size_t parts = x->level[x->n].nf / x->level[0].nf;
 
 	for (size_t f = begin; f < end; f++) {
-		if (!is_due(x, (uint32_t)f))
-			continue;
-		memset(x->crosses + parts * f, 0, parts * sizeof *x->crosses);
-		if (x->node[0][f].angle < 0)
-			continue; /* it has no normal anywhere, and crosses nothing */
+		if (!x->due[f] || x->node[0][f].angle < 0)
+			continue; /* without a normal anywhere it crosses nothing */
 		test_self(x, 0, (uint32_t)f);
-		mr_bvh_overlap(x->bvh, box_of(&x->node[0][f]), test_root, &(looking){ x, (uint32_t)f });
+		test_above(x, x->top, 0, (uint32_t)f);
+	}
+}
+
+/* Forgets what roots cross that have moved, or crossed what may have. */
+static void
+find_due(tree *x)
+{
+	size_t parts = (size_t)1 << 2 * x->n;
+
+	for (size_t f = 0; f < x->level[0].nf; f++) {
+		bool *own = x->crosses + parts * f;
+		x->due[f] = !x->moved || x->moved[f] || memchr(own, true, parts);
+		if (x->due[f])
+			memset(own, 0, parts * sizeof *own);
 	}
 }
 
@@ -290,20 +298,32 @@ choose_units(tree *x)
 }
 
 static void
-index_roots(mr_ctx *ctx, tree *x)
+sort_roots(mr_ctx *ctx, tree *x)
 {
+	mr_mark mark = mr_mark_take(ctx);
 	size_t nf = x->level[0].nf;
-	mr_v3 *p = MR_NEW(ctx, 2 * nf, mr_v3);
-	mr_tri *t = MR_NEW(ctx, nf, mr_tri);
+	mr_v3 *p = MR_NEW(ctx, nf, mr_v3);
 
-	for (uint32_t f = 0; f < nf; f++) {
-		mr_box b = box_of(&x->node[0][f]);
-		p[2 * (size_t)f] = b.min;
-		p[2 * (size_t)f + 1] = b.max;
-		t[f] = (mr_tri){ { 2 * f, 2 * f + 1, 2 * f } };
+	for (size_t f = 0; f < nf; f++) {
+		const node *d = &x->node[0][f];
+		p[f] = mr_vec((double)(d->lo[0] + d->hi[0]), (double)(d->lo[1] + d->hi[1]),
+		    (double)(d->lo[2] + d->hi[2]));
 	}
-	x->roots = (mr_mesh){ "roots", p, t, 2 * nf, nf };
-	mr_bvh_build(ctx, &x->roots, &x->bvh);
+	mr_zorder(ctx, p, nf, MR_ZORDER_CELLS, x->order);
+	mr_mark_release(ctx, mark);
+}
+
+static void
+make_above(tree *x)
+{
+	for (size_t k = 1; k <= x->top; k++)
+		for (size_t i = 0, below = count_above(x, k - 1); i < below; i++) {
+			const node *part = k == 1 ? &x->node[0][x->order[i]] : &x->above[k - 1][i];
+			if (i % 4 == 0)
+				x->above[k][i / 4] = *part;
+			else
+				enclose(&x->above[k][i / 4], part);
+		}
 }
 
 mr_loop_tree *
@@ -315,21 +335,29 @@ mr_loop_tree_new(mr_ctx *ctx, const mr_loop *level, size_t n)
 	x->n = n;
 	for (size_t k = 0; k <= n; k++)
 		x->node[k] = MR_NEW(ctx, level[k].nf, node);
+	x->order = MR_NEW(ctx, level->nf, uint32_t);
+	x->due = MR_NEW(ctx, level->nf, bool);
+	do {
+		x->top++;
+		x->above[x->top] = MR_NEW(ctx, count_above(x, x->top), node);
+	} while (count_above(x, x->top) > 1);
 	return x;
 }
 
 void
 mr_find_crossings(mr_ctx *ctx, mr_loop_tree *x, const mr_v3 *p, const bool *moved, bool *crosses)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	bool first = !moved || !(x->unit > 0);
 
 	x->p = p;
 	x->moved = moved;
 	x->crosses = crosses;
-	if (!moved || !(x->unit > 0))
+	if (first)
 		choose_units(x);
 	mr_parallel(ctx, x->level[0].nf, GRAIN, make_nodes, x);
-	index_roots(ctx, x);
+	if (first)
+		sort_roots(ctx, x);
+	make_above(x);
+	find_due(x);
 	mr_parallel(ctx, x->level[0].nf, GRAIN, search, x);
-	mr_mark_release(ctx, mark);
 }
