@@ -15,8 +15,6 @@ static const cmd_opt table[] = {
 	{ 0, "smooth", CMD_FLAG, &opts.smooth, 0, 0, NULL, "keep no sharp edges", NULL },
 	{ 't', "to", CMD_TEXT, &opts.to, 0, 0, "LAYER", "write the result as that layer; the surface stays",
 	    NULL },
-	{ 0, "map", CMD_TEXT, &opts.map, 0, 0, "LAYER",
-	    "keep the surface as that layer, with the places of its vertices on the result", NULL },
 	{ 0 },
 };
 
@@ -29,22 +27,12 @@ static const cmd_field figures[] = {
 	{ 0 },
 };
 
-/* Another tool would take the surface for what the layer holds by convention. */
-static mr_status
-check_name(cmd *c, const char *option, const char *layer)
-{
-	MR_TRY(cmd_layer_name(c, option, layer));
-	if (layer && mr_layer_no_surface(layer))
-		return mr_fail(&c->ctx, MR_EUSAGE, "%s: layer %s holds no surface", option, layer);
-	return MR_OK;
-}
-
 static mr_status
 prepare(cmd *c)
 {
-	MR_TRY(check_name(c, "--to", opts.to));
-	MR_TRY(check_name(c, "--map", opts.map));
-	MR_TRY(cmd_idle(c, "map", opts.to, "with --to, which keeps the surface"));
+	MR_TRY(cmd_layer_name(c, "--to", opts.to));
+	if (opts.to && mr_layer_no_surface(opts.to)) /* by convention, which other tools go by */
+		return mr_fail(&c->ctx, MR_EUSAGE, "--to: layer %s holds no surface", opts.to);
 	if (opts.to && strcmp(opts.to, "control")) {
 		MR_TRY(cmd_idle(c, "creases", true, "with --to another layer"));
 		MR_TRY(cmd_idle(c, "smooth", true, "with --to another layer"));

@@ -21,8 +21,7 @@ static const off_t LARGEST_PAGE = 300000000;
 /* Columns of vertices that say where they are on another layer, or that only serve to compute.  Of these a
  * page takes those by which it poses what it can. */
 static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offset", "source_face",
-	"source_bary", "mesh_face", "mesh_bary", "base_face", "base_bary", "control_face", "control_bary",
-	"encoded", "before", "rest", "response", "texcoord", "corner_texcoord", "polygon", NULL };
+	"source_bary", "encoded", "before", "rest", "response", "texcoord", "corner_texcoord", "polygon", NULL };
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
 	"base.encoded", "base.response", "handles.transform", NULL };

@@ -557,12 +557,11 @@ typedef struct mr_simplify_opts {
 	bool creases, smooth; /* sharp edges of a control mesh: or say why not; none; else as points show */
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */
 	const char *to;       /* layer that is written; NULL: the one that is simplified */
-	const char *map;      /* layer that keeps the surface, with its places on the result; NULL: none */
 	const char *layer;    /* NULL: control, else base, else mesh */
 	uint8_t **sharp;      /* NULL: none are kept; else in and out: see simplify/simplify.h */
 } mr_simplify_opts;
 
-#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, false, NULL, NULL, NULL, NULL, NULL)
+#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, false, NULL, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces; /* of the result */

@@ -1,4 +1,4 @@
-/* Where the vertices of a mesh lie on what it was simplified to, and the reverse. */
+/* Where the vertices of a simplified mesh lie on what it was. */
 #include "base/parallel.h"
 #include "simplify/simplify.h"
 #include "space/surface_walk.h"
@@ -51,37 +51,16 @@ place_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Places the vertices of `from` on m, by walks from vertices of it. */
-static mr_status
-place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *start, mr_places *map)
-{
-	uint32_t *face = MR_NEW(ctx, from->nv, uint32_t);
-	mr_v3 *bary = MR_NEW(ctx, from->nv, mr_v3);
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *normal = MR_NEW(ctx, from->nv, mr_v3);
-	mr_topology topo;
-	mr_bvh *bvh;
-
-	mr_vertex_normals(ctx, from, NULL, normal);
-	MR_TRY(mr_topology_build(ctx, m, &topo));
-	mr_bvh_build(ctx, m, &bvh);
-	mr_parallel(
-	    ctx, from->nv, 1024, place_body, &(place_job){ m, &topo, bvh, from, normal, start, face, bary });
-	mr_mark_release(ctx, mark);
-	*map = (mr_places){ face, bary };
-	return MR_OK;
-}
-
 mr_status
 mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map)
 {
-	return place_all(ctx, out, m, onto, map);
-}
-
-mr_status
-mr_simplify_source(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map)
-{
+	uint32_t *face = MR_NEW(ctx, out->nv, uint32_t);
+	mr_v3 *bary = MR_NEW(ctx, out->nv, mr_v3);
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *normal = MR_NEW(ctx, out->nv, mr_v3);
 	uint32_t *nearest = MR_NEW(ctx, out->nv, uint32_t);
+	mr_topology topo;
+	mr_bvh *bvh;
 
 	for (size_t v = 0; v < out->nv; v++)
 		nearest[v] = MR_NONE;
@@ -93,5 +72,12 @@ mr_simplify_source(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint
 		    mr_dist(m->p[v], out->p[w]) < mr_dist(m->p[nearest[w]], out->p[w]))
 			nearest[w] = v;
 	}
-	return place_all(ctx, m, out, nearest, map);
+	mr_vertex_normals(ctx, out, NULL, normal);
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	mr_bvh_build(ctx, m, &bvh);
+	mr_parallel(
+	    ctx, out->nv, 1024, place_body, &(place_job){ m, &topo, bvh, out, normal, nearest, face, bary });
+	mr_mark_release(ctx, mark);
+	*map = (mr_places){ face, bary };
+	return MR_OK;
 }

@@ -44,18 +44,11 @@ size_t mr_simplify_fine_faces_for(size_t n);
 mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, double *weight);
 
 /*
- * Where the vertices of m lie on the result: the nearest point, where its face looks to the same side as the
- * vertex, else where a walk from the vertex that it was merged into ends; isolated ones at the nearest point.
- * map: m->nv rows, in the arena.
+ * Where the vertices of the result lie on m: the nearest point, where its face looks to the same side as the
+ * vertex, else where a walk from the nearest of the vertices merged into it ends.  map: out->nv rows, in the
+ * arena.
  */
 mr_status
 mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map);
-
-/*
- * Where the vertices of the result lie on m, likewise: by a walk from the nearest of the vertices merged into
- * each. map: out->nv rows, in the arena.
- */
-mr_status
-mr_simplify_source(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map);
 
 #endif

@@ -93,22 +93,6 @@ weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opt
 	return MR_OK;
 }
 
-/* Keeps surface m as layer `map`, with where its vertices lie on the result. */
-static mr_status
-put_map(mr_ctx *ctx, mr_frame *f, const char *map_layer, const mr_mesh *m, const mr_mesh *out,
-    const uint32_t *onto)
-{
-	char face[MR_COLUMN_MAX + 1], bary[MR_COLUMN_MAX + 1];
-	mr_places map;
-
-	MR_TRY(mr_simplify_map(ctx, m, out, onto, &map));
-	snprintf(face, sizeof face, "%s_face", m->name);
-	snprintf(bary, sizeof bary, "%s_bary", m->name);
-	MR_TRY(mr_layer_put_mesh(ctx, f, map_layer, m));
-	MR_TRY(mr_layer_put(ctx, f, map_layer, face, map.face, m->nv));
-	return mr_layer_put(ctx, f, map_layer, bary, map.bary, m->nv);
-}
-
 /* Puts the result in the surface's place; a base goes on knowing where it lies on the mesh. */
 static mr_status
 replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
@@ -117,7 +101,7 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 	bool mapped = false;
 
 	if (!strcmp(m->name, "base")) {
-		MR_TRY(mr_simplify_source(ctx, m, out, onto, &over));
+		MR_TRY(mr_simplify_map(ctx, m, out, onto, &over));
 		MR_TRY(mr_source_map_follow(ctx, f, m, &over, out->nv, &source, &mapped));
 	}
 	MR_TRY(mr_layer_replace(ctx, f, m->name, out));
@@ -194,9 +178,8 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	MR_TRY(mr_check_number(ctx, "boundary", o.boundary, 0, 1e6));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o.layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	if ((o.map && !strcmp(o.map, layer)) || (o.to && !strcmp(o.to, layer)))
-		return mr_fail(
-		    ctx, MR_EUSAGE, "--%s: %s is the layer that is simplified", o.to ? "to" : "map", layer);
+	if (o.to && !strcmp(o.to, layer))
+		return mr_fail(ctx, MR_EUSAGE, "--to: %s is the layer that is simplified", layer);
 	MR_TRY(read_points(ctx, f, o.to ? o.to : layer, &points));
 	MR_TRY(may_be_sharp(ctx, &m, &points, &o, &look));
 	surface = m;
@@ -215,8 +198,6 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
 	if (o.sharp)
 		MR_TRY(put_marks(ctx, f, &out, marks, &r->creases));
-	if (o.map && !o.to)
-		MR_TRY(put_map(ctx, f, o.map, &m, &out, onto));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);
 }
 

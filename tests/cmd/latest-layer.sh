@@ -11,7 +11,7 @@ mr-make torus -n 300 -o torus.mrs
 mr-make torus -n 400 --points 400 -o cloud.mrs
 
 for filter in mr-smooth 'mr-smooth | mr-remesh' mr-remesh 'mr-smooth | mr-simplify -n 100' 'mr-simplify -n 100' \
-    'mr-simplify -n 100 --map fine' 'mr-subdivide -n 1' 'mr-smooth | mr-subdivide -q -n 1 -l base' \
+    'mr-subdivide -n 1' 'mr-smooth | mr-subdivide -q -n 1 -l base' \
     'mr-smooth | mr-crop -l mesh --keep above:x,0.5' 'mr-smooth | mr-transform --scale 2' \
     'mr-smooth | mr-remesh | mr-select --free all' 'mr-smooth | mr-remesh | mr-encode' \
     'mr-smooth | mr-remesh | mr-encode | mr-decode' 'mr-smooth | mr-encode | mr-smooth' \

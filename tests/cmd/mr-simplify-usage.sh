@@ -1,5 +1,5 @@
 # Wrong command lines: exit 2, a sentence, nothing on stdout; what it cannot work on is named.
-for args in '-n -1' '-n x' '-r 1.1' '-r nan' '-e -1' '-e 1%%' '-e 1 --boundary -1' '-n 10 -r 0.5' '-n 10 --map mesh' '--nothing' '-n'; do
+for args in '-n -1' '-n x' '-r 1.1' '-r nan' '-e -1' '-e 1%%' '-e 1 --boundary -1' '-n 10 -r 0.5' '--nothing' '-n'; do
 	mr-make sphere -n 100 | mr-simplify $args >out 2>err
 	echo "$args: $? $(wc -c <out) $(head -n 1 err)"
 done
@@ -17,7 +17,7 @@ mr-make sphere -n 100 | head -c 3000 | mr-simplify -n 10 >out 2>err
 echo "cut: exit $?, $(head -n 1 err)"
 # A layer of another kind, or the one that is simplified, is not where a surface is put.
 mr-make sphere -n 100 -o sphere.mrs
-for args in '--to points' '--to handles' '--to displacement' '--map points' '--to mesh' '-l mesh --to mesh'; do
+for args in '--to points' '--to handles' '--to displacement' '--to mesh' '-l mesh --to mesh'; do
 	mr-simplify $args sphere.mrs >out 2>err
 	echo "$args: exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
 done
@@ -25,10 +25,8 @@ while read -r option name; do
 	mr-simplify "$option" "$name" sphere.mrs >out 2>err
 	echo "$option '$name': exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
 done <<'NAMES'
---map
---map a b
---map seventeen-letters
 --to
 --to a b
+--to seventeen-letters
 NAMES
 mr-simplify --to control -n 50 sphere.mrs | mr-simplify --to control -l mesh -n 20 | mr-info | grep -c triangles

@@ -49,21 +49,19 @@ grep -c 'faces are left, not 1' err
 mr-info --json out.mrs >after.json
 echo "genus $(figure genus after.json)"
 
-echo 'the base keeps its map; what refers to a result is lawful, and goes with it'
+echo 'the base keeps its map'
 mr-make bumpy -n 6000 | mr-smooth -o base.mrs
-mr-simplify -r 0.2 --map fine base.mrs -o out.mrs && mr-info --check out.mrs >info.txt && grep -o 'source_face\|base_face' info.txt | sort
+mr-simplify -r 0.2 base.mrs -o out.mrs && mr-info --check out.mrs >info.txt && grep -o source_face info.txt
 mr-select --free all --fixed below:y,0.1 --handle 1=above:y,0.9 out.mrs | mr-encode |
 	mr-pose -H 1 --translate 0,1,0 | mr-solve | mr-decode | mr-info --check >info.txt && echo posed
-mr-simplify -l base -r 0.5 out.mrs | mr-info --check | grep -o 'source_face\|base_face' | sort
+mr-simplify -l base -r 0.5 out.mrs | mr-info --check | grep -o source_face
 
 echo 'a control mesh goes by the points'
 mr-make sphere -n 3000 | mr-export -f off - >control.off
 mr-make sphere --points 6400 -o points.mrs
-mr-import -l control control.off | mr-cat --merge - points.mrs | mr-simplify --map wrap -o out.mrs || exit
-mr-info out.mrs | grep -o 'points\|control_face' | sort -u
+mr-import -l control control.off | mr-cat --merge - points.mrs | mr-simplify -o out.mrs || exit
 mr-info --json -l control out.mrs >after.json
 echo "$(figure faces after.json) faces"
-mr-simplify -l control -n 100 out.mrs | mr-info | grep -c control_face || :
 echo 'two shells near each other pass through each other where few faces are left'
 mr-make sphere -n 2000 | mr-export -f off - | awk 'NR == 2 { n = $1; m = $2 } NR > 2 && NR <= n + 2 { p[NR - 3] = $0 } NR > n + 2 { t[NR] = $0 }
 	END { print "OFF\n" 2 * n, 2 * m, 0; for (i = 0; i < n; i++) print p[i]
@@ -81,10 +79,6 @@ mr-simplify -r .5 octahedron.obj 2>&1 >out.mrs | grep -o 'mesh: .*'
 mr-make boxes --genus 20 | mr-simplify -n 20 2>&1 >out.mrs | grep -o 'not 20.*'
 echo 'what takes the place of another surface, and what goes with detail'
 mr-make torus -n 500 | mr-smooth -o smooth.mrs
-mr-simplify -q -l base -r 0.5 --map fine smooth.mrs -o fine.mrs
-for layer in mesh fine; do
-	mr-simplify -l base -r 0.7 --map $layer fine.mrs 2>&1 >out.mrs | grep -o "$layer is.*"
-done
 mr-encode smooth.mrs | mr-simplify -l mesh -r 0.5 2>&1 >out.mrs | grep -o 'mesh has.*'
 mr-select --free all --handle 0=above:x,0.8 smooth.mrs | mr-encode | mr-pose --translate 0,0,1 | mr-solve -o posed.mrs
 mr-simplify -l mesh -r 0.5 posed.mrs 2>&1 >out.mrs | grep -o 'mesh has.*'

@@ -134,7 +134,6 @@ simplify(const job *j)
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
 
 	o.to = j->way % 2 ? "control" : NULL;
-	o.map = j->way % 2 ? "base" : NULL;
 	return mr_simplify_frame(j->ctx, j->f, &o, NULL);
 }
 

@@ -28,7 +28,7 @@ def must(holds, sentence):
 # Columns by whose law a number may be none: corners without texture coordinates.  Columns that no tool knows are the file's.
 NUMBERS = {"position", "normal", "texcoord", "corner_normal", "detail_bary", "detail_height", "detail_offset", "source_bary", "encoded",
            "rest", "before", "response", "transform", "turn", "spacing", "sampling", "height", "range", "scanner"}
-INDICES = {"detail_face": "base", "source_face": "mesh", "mesh_face": "mesh", "base_face": "base", "control_face": "control"}
+INDICES = {"detail_face": "base", "source_face": "mesh"}
 
 
 def frames(path):

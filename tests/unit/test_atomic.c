@@ -115,12 +115,11 @@ simplify(mr_ctx *ctx, mr_frame *f, void *result)
 }
 
 static mr_status
-simplify_mapped(mr_ctx *ctx, mr_frame *f, void *result)
+simplify_mesh(mr_ctx *ctx, mr_frame *f, void *result)
 {
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
 
 	o.layer = "mesh";
-	o.map = "fine";
 	return mr_simplify_frame(ctx, f, &o, result);
 }
 
@@ -252,7 +251,7 @@ static void
 editing(void **state)
 {
 	static const operation run[] = { smooth, remesh, choose, solve_basis, encode, pose, solve, decode,
-		turn, normals, subdivide, simplify_mapped, crop };
+		turn, normals, subdivide, simplify_mesh, crop };
 	mr_make_opts o = MR_MAKE_DEFAULTS;
 
 	(void)state;

@@ -74,7 +74,7 @@ vertices_lie_where_they_were_merged(void **state)
 {
 	mr_make_opts solid = MR_MAKE_DEFAULTS;
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
-	mr_places map, source;
+	mr_places map;
 	uint32_t *onto;
 	mr_mesh m, out;
 
@@ -87,18 +87,10 @@ vertices_lie_where_they_were_merged(void **state)
 	assert_int_equal(out.nf, 400);
 	assert_int_equal(out.nv, 202);
 	assert_int_equal(mr_simplify_map(&ctx, &m, &out, onto, &map), MR_OK);
-	assert_int_equal(mr_simplify_source(&ctx, &m, &out, onto, &source), MR_OK);
-	for (size_t v = 0; v < m.nv; v++) {
-		const uint32_t *t = out.t[map.face[v]].v;
-		mr_v3 p = mr_bary_point(map.bary[v], out.p[t[0]], out.p[t[1]], out.p[t[2]]);
-		assert_true(onto[v] < out.nv && map.face[v] < out.nf);
-		assert_true(mr_dist(p, m.p[v]) < 0.05); /* a sphere of radius 1 */
-	}
-	for (size_t v = 0; v < out.nv; v++) {
-		const uint32_t *t = m.t[source.face[v]].v;
-		mr_v3 p = mr_bary_point(source.bary[v], m.p[t[0]], m.p[t[1]], m.p[t[2]]);
-		assert_true(mr_dist(p, out.p[v]) < 0.05);
-	}
+	for (size_t v = 0; v < m.nv; v++)
+		assert_true(onto[v] < out.nv);
+	for (size_t v = 0; v < out.nv; v++)
+		assert_true(mr_dist(mr_place_point(&m, mr_places_at(&map, v)), out.p[v]) < 0.05);
 }
 
 /* The length of the sharp edges that are marked in a control mesh of a solid. */
@@ -172,11 +164,8 @@ places_are_the_nearest(void **state)
 
 	(void)state;
 	map_of(MR_BOXES, 1, 0, 500, &m, &out, &map);
-	for (size_t v = 0; v < m.nv; v++) {
-		const uint32_t *t = out.t[map.face[v]].v;
-		mr_v3 p = mr_bary_point(map.bary[v], out.p[t[0]], out.p[t[1]], out.p[t[2]]);
-		assert_true(mr_dist(p, m.p[v]) < 1e-9);
-	}
+	for (size_t v = 0; v < out.nv; v++)
+		assert_true(mr_dist(mr_place_point(&m, mr_places_at(&map, v)), out.p[v]) < 1e-9);
 }
 
 /* In a thin bowl the nearest face is often one of the other side. */
@@ -190,17 +179,17 @@ places_stay_on_their_side(void **state)
 	mr_bvh *bvh;
 
 	(void)state;
-	map_of(MR_SPHERE, 0.005, 0.5, 100, &m, &out, &map);
-	normal = MR_NEW(&ctx, m.nv, mr_v3);
-	mr_vertex_normals(&ctx, &m, NULL, normal);
-	mr_bvh_build(&ctx, &out, &bvh);
-	for (size_t v = 0; v < m.nv; v++) {
-		if (hypot(m.p[v].x, m.p[v].y) > 0.8) /* at the rim */
+	map_of(MR_SPHERE, 0.001, 0.5, 1000, &m, &out, &map);
+	normal = MR_NEW(&ctx, out.nv, mr_v3);
+	mr_vertex_normals(&ctx, &out, NULL, normal);
+	mr_bvh_build(&ctx, &m, &bvh);
+	for (size_t v = 0; v < out.nv; v++) {
+		if (hypot(out.p[v].x, out.p[v].y) > 0.8) /* at the rim */
 			continue;
-		strayed += mr_dot(mr_face_cross(&out, map.face[v]), normal[v]) <= 0;
-		across += mr_dot(mr_face_cross(&out, mr_bvh_closest(bvh, m.p[v]).at.face), normal[v]) <= 0;
+		strayed += mr_dot(mr_face_cross(&m, map.face[v]), normal[v]) <= 0;
+		across += mr_dot(mr_face_cross(&m, mr_bvh_closest(bvh, out.p[v]).at.face), normal[v]) <= 0;
 	}
-	assert_true(across > 100);
+	assert_true(across > 50);
 	assert_int_equal(strayed, 0);
 }
 
