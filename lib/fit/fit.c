@@ -63,7 +63,7 @@ local(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *point, size_t n, const mr_fit
 
 	MR_TRY(mr_near_build(ctx, point, n, &near));
 	MR_TRY(local_passes(ctx, near, &s->level[0], point, opts->step, passes, x));
-	mr_fit_surface_move(ctx, s, x);
+	mr_fit_surface_move(ctx, s, x, NULL);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -153,7 +153,6 @@ least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, const do
 		mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness);
 		MR_TRY(mr_fit_solve(ctx, &system, z));
 		MR_TRY(mr_fit_step(ctx, guard, x, z));
-		mr_fit_surface_move(ctx, surface, x);
 		mr_fit_attach(ctx, surface, point, n, false, foot);
 	}
 	result->crossing_faces = mr_fit_crossing(guard);

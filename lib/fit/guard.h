@@ -9,20 +9,21 @@
 
 #include "fit/limit_surface.h"
 
-/* The control mesh and the limit points of level 3, and what is wrong with them. */
+/* The control mesh and the nodes of its surface, and what is wrong with them. */
 typedef struct mr_fit_guard mr_fit_guard;
 
-/* Looks at them where the control vertices are at x; in the arena. */
-mr_status mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, mr_fit_guard **guard);
+/* Looks at them where the control vertices are at x, as the surface's are; in the arena. */
+mr_status mr_fit_guard_new(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *x, mr_fit_guard **guard);
 
 /* How many control faces have a surface that passes through another. */
 size_t mr_fit_crossing(const mr_fit_guard *guard);
 
 /*
- * Moves x, where the guard saw it last, by z.  Where that would close an edge of the control mesh beyond 170
- * degrees that was less so, or let a face of it pass through another, z becomes more like the motions around,
- * so that what sticks out moves as a whole; then what would do so still goes half as far, and so on; at last
- * it stays.  So do the corners of faces whose surface would close beyond 150 degrees or pass through itself.
+ * Moves x, where the guard saw it last, by z, and the surface with it.  Where that would close an edge of the
+ * control mesh beyond 170 degrees that was less so, or let a face of it pass through another, z becomes more
+ * like the motions around, so that what sticks out moves as a whole; then what would do so still goes half as
+ * far, and so on; at last it stays.  So do the corners of faces whose surface would close beyond 150 degrees
+ * or pass through itself.
  */
 mr_status mr_fit_step(mr_ctx *ctx, mr_fit_guard *guard, mr_v3 *x, mr_v3 *z);
 

@@ -18,15 +18,45 @@ mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease,
 	MR_TRY(mr_loop_limit_matrix(ctx, r.level, MR_FIT_LEVEL, &r.s));
 	r.node = MR_NEW(ctx, fine->nv, mr_v3);
 	r.m = (mr_mesh){ control->name, r.node, fine->t, fine->nv, fine->nf };
-	mr_fit_surface_move(ctx, &r, control->p);
+	mr_fit_surface_move(ctx, &r, control->p, NULL);
 	*s = r;
 	return MR_OK;
 }
 
-void
-mr_fit_surface_move(const mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *x)
+typedef struct motion {
+	const mr_fit_surface *s;
+	const mr_v3 *x;
+	bool *moves; /* nodes */
+} motion;
+
+static void
+move_nodes(void *arg, size_t begin, size_t end)
 {
-	mr_sparse_apply(ctx, &s->s, NULL, s->m.nv, 3, &x->x, &s->node->x);
+	const motion *j = arg;
+	const mr_sparse *a = &j->s->s;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 sum = { 0, 0, 0 };
+		if (!j->moves[i])
+			continue;
+		for (int e = a->start[i]; e < a->start[i + 1]; e++)
+			sum = mr_axpy(a->value[e], j->x[a->index[e]], sum);
+		j->s->node[i] = sum;
+	}
+}
+
+void
+mr_fit_surface_move(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *x, const bool *which)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	motion j = { s, x, MR_NEW(ctx, s->m.nv, bool) };
+
+	memset(j.moves, which == NULL, s->m.nv * sizeof *j.moves);
+	for (size_t f = 0; which && f < s->m.nf; f++)
+		for (int k = 0; k < 3 && which[f / MR_FIT_CHILDREN]; k++)
+			j.moves[s->m.t[f].v[k]] = true;
+	mr_parallel(ctx, s->m.nv, GRAIN, move_nodes, &j);
+	mr_mark_release(ctx, mark);
 }
 
 void

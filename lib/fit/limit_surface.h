@@ -44,8 +44,8 @@ typedef struct mr_fit_gap {
  * mr_loop_control. */
 mr_status mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, mr_fit_surface *s);
 
-/* Its nodes where the control vertices are at x. */
-void mr_fit_surface_move(const mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *x);
+/* Its nodes where the control vertices are at x: all, or those of the control faces that are marked. */
+void mr_fit_surface_move(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *x, const bool *which);
 
 /* The six nodes of a patch: its corners a, b, c, then the middles of ab, bc, ca. */
 void mr_fit_nodes(const mr_fit_surface *s, uint32_t patch, uint32_t node[MR_FIT_PATCH]);
