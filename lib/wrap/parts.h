@@ -85,7 +85,7 @@ typedef struct mr_wrap_lids {
 } mr_wrap_lids;
 
 /* Spacings: openings that are wider stay open. */
-static const double MR_WRAP_OPENING = 10;
+static const double MR_WRAP_OPENING = 8;
 
 /* A wrap, and how well it covers the points. */
 typedef struct mr_wrap {

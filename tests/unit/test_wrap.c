@@ -110,7 +110,7 @@ cut_over_a_hole(double hole, int how, mr_mesh *m)
 	return lids;
 }
 
-/* The rim around the points is an opening; a hole in them is from ten spacings on, or five where all are. */
+/* The rim around the points is an opening; a hole in them is from eight spacings on, or five where all are. */
 static void
 test_wide_openings_are_cut_out(void **state)
 {
@@ -124,8 +124,8 @@ test_wide_openings_are_cut_out(void **state)
 		{ 1.5, MR_LIDS_NONE, 1, 0, 0 },
 		{ 3.2, MR_LIDS_AUTO, 1, 1, 1 },
 		{ 3.2, MR_LIDS_NONE, 2, 0, 0 },
-		{ 4.2, MR_LIDS_AUTO, 1, 1, 1 },
-		{ 6, MR_LIDS_AUTO, 2, 0, 1 },
+		{ 4.6, MR_LIDS_AUTO, 2, 0, 1 },
+		{ 6, MR_LIDS_AUTO, 2, 0, 0 },
 		{ 8, MR_LIDS_AUTO, 2, 0, 0 },
 	};
 
