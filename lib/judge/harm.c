@@ -3,16 +3,107 @@
 
 #include "mesh/edges.h"
 #include "mesh/fold.h"
-#include "space/cells.h"
 #include "space/contact.h"
 #include "space/self_intersect.h"
 
 enum { SAMPLES = 1 << 14, SLOTS = 2 * SAMPLES, FEW = 2048 };
 
+/* ---- cells of space ---- */
+
+enum { BITS = 1 << 17, ACROSS = 4 };
+
+typedef struct cell {
+	int at[3];
+} cell;
+
+/* Cells are marked in a set of bits by their hash: what is marked by chance is looked at in vain. */
+typedef struct cells {
+	double scale; /* 1 over the side of a cell */
+	uint32_t *bits;
+	bool any;
+} cells;
+
+static cells
+cells_new(mr_ctx *ctx, double size)
+{
+	return (cells){ 1 / size, MR_NEW_ZERO(ctx, BITS / 32, uint32_t), false };
+}
+
+static int
+cell_along(double x)
+{
+	const double most = 1e9, off = 0.37; /* walls at 0 are in one cell */
+	int at;
+
+	x += off;
+	at = (int)(x < -most ? -most : x < most ? x : most);
+	return at - (at > x);
+}
+
+static cell
+cell_of(const cells *c, mr_v3 p)
+{
+	return (
+	    cell){ { cell_along(c->scale * p.x), cell_along(c->scale * p.y), cell_along(c->scale * p.z) } };
+}
+
+static uint32_t
+hash_of(cell c)
+{
+	uint64_t h = 0;
+
+	for (int k = 0; k < 3; k++)
+		h = (h ^ (uint32_t)c.at[k]) * 0x9e3779b97f4a7c15u;
+	return (uint32_t)(h >> 40);
+}
+
+static void
+mark_cell(cells *c, mr_v3 p)
+{
+	uint32_t h = hash_of(cell_of(c, p)) % BITS;
+
+	c->bits[h / 32] |= 1u << h % 32;
+	c->any = true;
+}
+
+static bool
+is_marked(const cells *c, cell at)
+{
+	uint32_t h = hash_of(at) % BITS;
+
+	return c->bits[h / 32] >> h % 32 & 1;
+}
+
+/* Whether p is in a marked cell. */
+static bool
+holds(const cells *c, mr_v3 p)
+{
+	return c->any && is_marked(c, cell_of(c, p));
+}
+
+/* Whether a box meets a marked cell, or more than some cells. */
+static bool
+meets(const cells *c, mr_box box)
+{
+	cell low = cell_of(c, box.min), high = cell_of(c, box.max), at;
+
+	for (int k = 0; k < 3; k++)
+		if (high.at[k] - low.at[k] >= ACROSS)
+			return true;
+	for (at.at[0] = low.at[0]; at.at[0] <= high.at[0]; at.at[0]++)
+		for (at.at[1] = low.at[1]; at.at[1] <= high.at[1]; at.at[1]++)
+			for (at.at[2] = low.at[2]; at.at[2] <= high.at[2]; at.at[2]++)
+				if (is_marked(c, at))
+					return true;
+	return false;
+}
+
+/* ---- crowded ones ---- */
+
 typedef struct crowd {
 	mr_mesh then, now;
 	const mr_motion *m;
-	mr_cells turned, gathered;
+	cells turned, gathered;
 	uint32_t *vertex; /* of those of then and now, once they are the crowd's alone */
 } crowd;
 
@@ -32,22 +123,22 @@ mark_turned(crowd *c)
 {
 	for (size_t v = 0; v < c->now.nv; v++)
 		if (turns_against(&c->m->ring[v]))
-			mr_cells_mark(&c->turned, c->now.p[v]);
+			mark_cell(&c->turned, c->now.p[v]);
 }
 
 /* Cells that hold what was far apart, or sheets that came by each other, by vertices at equal strides. */
 
 typedef struct content {
-	mr_cell at;
+	cell at;
 	bool used, crowded;
 	uint32_t first, last;  /* vertices */
 	float low[3], high[3]; /* where it was, in cells */
 } content;
 
 static content *
-content_of(content *table, mr_cell at)
+content_of(content *table, cell at)
 {
-	size_t i = mr_cell_hash(at) % SLOTS;
+	size_t i = hash_of(at) % SLOTS;
 
 	while (table[i].used && memcmp(&table[i].at, &at, sizeof at))
 		i = (i + 1) % SLOTS;
@@ -85,7 +176,7 @@ static void
 add_vertex(const crowd *c, content *table, uint32_t v)
 {
 	const float far = 3; /* cells */
-	mr_cell at = mr_cell_of(&c->gathered, c->now.p[v]);
+	cell at = cell_of(&c->gathered, c->now.p[v]);
 	content *x = content_of(table, at);
 
 	for (int k = 0; k < 3; k++) {
@@ -111,7 +202,7 @@ mark_gathered(mr_ctx *ctx, crowd *c)
 		add_vertex(c, table, v);
 	for (size_t i = 0; i < SLOTS; i++)
 		if (table[i].crowded)
-			mr_cells_mark(&c->gathered, c->now.p[table[i].first]);
+			mark_cell(&c->gathered, c->now.p[table[i].first]);
 }
 
 static size_t
@@ -262,8 +353,7 @@ meets_marked(const crowd *c, size_t f)
 
 	mr_corners(&c->now, (uint32_t)f, p);
 	box = mr_box_of(p, 3);
-	return (c->turned.any && mr_cells_meet(&c->turned, box)) ||
-	       (c->gathered.any && mr_cells_meet(&c->gathered, box));
+	return (c->turned.any && meets(&c->turned, box)) || (c->gathered.any && meets(&c->gathered, box));
 }
 
 /* The faces with a corner in a marked cell, and wide ones that meet one. */
@@ -275,8 +365,7 @@ list_faces(mr_ctx *ctx, const crowd *c, mr_tri *t)
 	size_t n = 0, wide = 0;
 
 	for (size_t v = 0; v < c->now.nv; v++)
-		marked[v] = few || mr_cells_hold(&c->turned, c->now.p[v]) ||
-		            mr_cells_hold(&c->gathered, c->now.p[v]);
+		marked[v] = few || holds(&c->turned, c->now.p[v]) || holds(&c->gathered, c->now.p[v]);
 	for (size_t f = 0; f < c->now.nf; f++) {
 		const uint32_t *v = c->now.t[f].v;
 		bool is_wide = wide < c->m->wides && c->m->wide[wide] == f;
@@ -335,8 +424,8 @@ mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 	crowd c = { .then = *m->then,
 		.now = *m->then,
 		.m = m,
-		.turned = mr_cells_new(ctx, m->cell),
-		.gathered = mr_cells_new(ctx, fmax(m->cell, share * m->diagonal)) };
+		.turned = cells_new(ctx, m->cell),
+		.gathered = cells_new(ctx, fmax(m->cell, share * m->diagonal)) };
 
 	*harm = (mr_harm){ .vertex = MR_NONE, .far_vertex = MR_NONE };
 	c.now.p = m->now;

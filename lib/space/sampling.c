@@ -11,17 +11,9 @@
 #include "mesh/layers.h"
 #include "mesh/zorder.h"
 #include "space/local_planes.h"
-#include "space/local_quadric.h"
 #include "space/near.h"
 
-enum {
-	AROUND = 8,
-	NEAREST = 16,
-	NEAREST_NOISY = MR_QUADRIC_POINTS,
-	SOME = 10007,
-	CHUNK = 1 << 13,
-	GRAIN = 256
-};
+enum { AROUND = 8, NEAREST = 16, NEAREST_NOISY = 40, SOME = 10007, CHUNK = 1 << 13, GRAIN = 256 };
 
 /* A neighbourhood of more variation shows noise, or a sharp shape: the larger one sees through noise.  But
  * where the first had not so much more, and the larger has more than it, it is the shape. */
@@ -270,6 +262,102 @@ find_outliers(mr_ctx *ctx, cloud *c)
 	keep_sparse_ends(ctx, c);
 }
 
+/* ---- the quadric through points around one: weighted least squares by the normal equations ---- */
+
+enum { TERMS = 6 };
+
+/* Solves A x = b in place (Cholesky); false where A is not positive definite. */
+static bool
+solve(double a[TERMS][TERMS], double b[TERMS])
+{
+	for (int j = 0; j < TERMS; j++) {
+		for (int i = j; i < TERMS; i++) {
+			double s = a[i][j];
+			for (int k = 0; k < j; k++)
+				s -= a[i][k] * a[j][k];
+			if (i == j && !(s > 1e-12 * a[j][j]))
+				return false;
+			a[i][j] = i == j ? sqrt(s) : s / a[j][j];
+		}
+	}
+	for (int i = 0; i < TERMS; i++) {
+		for (int k = 0; k < i; k++)
+			b[i] -= a[i][k] * b[k];
+		b[i] /= a[i][i];
+	}
+	for (int i = TERMS; i-- > 0;) {
+		for (int k = i + 1; k < TERMS; k++)
+			b[i] -= a[k][i] * b[k];
+		b[i] /= a[i][i];
+	}
+	return true;
+}
+
+/* Coefficients of 1 x y xx rxy yy, r the root of 2: the norm of the last three is that of their matrix. */
+static void
+row_at(double x, double y, double row[TERMS])
+{
+	memcpy(row, (double[TERMS]){ 1, x, y, x * x, sqrt(2) * x * y, y * y }, TERMS * sizeof *row);
+}
+
+/* The quadric of least squares through n heights t; the quadratic terms shrink a little, which keeps the
+ * system definite. */
+static bool
+fit_quadric(const double *row, const double *t, size_t n, double coefficient[TERMS])
+{
+	double a[TERMS][TERMS] = { { 0 } };
+
+	memset(coefficient, 0, TERMS * sizeof *coefficient);
+	for (size_t k = 0; k < n; k++)
+		for (int i = 0; i < TERMS; i++) {
+			const double *x = row + k * TERMS;
+			coefficient[i] += x[i] * t[k];
+			for (int j = 0; j <= i; j++)
+				a[i][j] += x[i] * x[j];
+		}
+	for (int i = 1; i < TERMS; i++)
+		a[i][i] += (i < 3 ? 1e-6 : 1e-3) * (double)n;
+	return solve(a, coefficient);
+}
+
+/*
+ * The signed distances of k points from the quadric through them over their plane; off: k, the caller's.
+ * Returns their deviation: the root of the mean square, for the points beyond as many as make a quadric; 0,
+ * and no distances, where these make none.
+ */
+static double
+quadric_residuals(const mr_v3 *q, size_t k, double *off)
+{
+	double a[6], value[3], row[NEAREST_NOISY * TERMS], t[NEAREST_NOISY];
+	double z[TERMS], radius2 = 0, radius, sum = 0;
+	mr_v3 axis[3], mean = mr_vec(0, 0, 0);
+
+	if (k <= TERMS)
+		return 0;
+	for (size_t i = 0; i < k; i++)
+		mean = mr_axpy(1 / (double)k, q[i], mean);
+	for (size_t i = 0; i < k; i++)
+		radius2 = fmax(radius2, mr_norm2(mr_sub(q[i], mean)));
+	radius = sqrt(radius2);
+	mr_covariance(q, k, 1 / radius, a);
+	mr_eigen_sym3(a, value, axis);
+	for (size_t i = 0; i < k; i++) {
+		mr_v3 d = mr_mul(1 / radius, mr_sub(q[i], mean));
+		double x = mr_dot(d, axis[2]), y = mr_dot(d, axis[1]);
+		row_at(x, y, row + i * TERMS);
+		t[i] = mr_dot(d, axis[0]);
+	}
+	if (!fit_quadric(row, t, k, z))
+		return 0;
+	for (size_t i = 0; i < k; i++) {
+		off[i] = radius * t[i];
+		for (int j = 0; j < TERMS; j++)
+			off[i] -= radius * z[j] * row[i * TERMS + (size_t)j];
+		sum += off[i] * off[i];
+	}
+	return sqrt(sum / (double)(k - TERMS));
+}
+
 /* ---- noise ---- */
 
 /* Of some places, at equal strides. */
@@ -294,7 +382,7 @@ look_around(void *arg, size_t begin, size_t end)
 			mr_plane_around(q, l->k, &l->variation[i]);
 		else
 			mr_plane_fit(q, l->k, &l->variation[i]);
-		l->residual[i] = mr_quadric_residuals(q, l->k, off);
+		l->residual[i] = quadric_residuals(q, l->k, off);
 	}
 }
 

@@ -7,8 +7,8 @@
 #include "space/self_intersect.h"
 
 #include "base/parallel.h"
+#include "space/bvh_tree.h"
 #include "space/predicates.h"
-#include "space/suspects.h"
 
 static bool
 same(mr_v3 a, mr_v3 b)
@@ -221,39 +221,123 @@ mr_triangles_intersect(const mr_v3 p[3], const mr_v3 q[3])
 	return n == 1 ? corner_intersect(a, b) : edge_intersect(a, b);
 }
 
-/* ---- all pairs of a surface ---- */
+/* ---- all pairs of a surface: the tree against itself, the children of each node among each other ---- */
+
+/* Of a face, in units of the mesh. */
+typedef struct face_box {
+	float lo[3], hi[3];
+} face_box;
 
 typedef struct search {
-	const mr_mesh *m;
-	bool *flat; /* faces without area */
+	const mr_bvh *bvh;
+	const uint32_t *node; /* all nodes, the root first */
+	size_t nodes;
+	face_box *box; /* in the order of the tree */
+	bool *flat;    /* faces without area, alike */
 	void (*visit)(void *arg, uint32_t f, uint32_t g);
 	void *arg;
 } search;
 
 static void
-find_flat(void *arg, size_t begin, size_t end)
+look_at_pair(const search *s, uint32_t i, uint32_t j)
 {
-	search *s = arg;
+	uint32_t f = s->bvh->face[i], g = s->bvh->face[j];
+	const face_box *a = &s->box[i], *b = &s->box[j];
+	mr_v3 p[3], q[3];
 
-	for (size_t f = begin; f < end; f++) {
-		mr_v3 p[3];
-		mr_corners(s->m, f, p);
-		s->flat[f] = mr_triangle_degenerate(p[0], p[1], p[2]);
+	if (a->lo[0] > b->hi[0] || b->lo[0] > a->hi[0] || a->lo[1] > b->hi[1] || b->lo[1] > a->hi[1] ||
+	    a->lo[2] > b->hi[2] || b->lo[2] > a->hi[2] || s->flat[i] || s->flat[j])
+		return;
+	mr_corners(s->bvh->mesh, f < g ? f : g, p);
+	mr_corners(s->bvh->mesh, f < g ? g : f, q);
+	if (mr_triangles_intersect(p, q))
+		s->visit(s->arg, f < g ? f : g, f < g ? g : f);
+}
+
+static bool
+children_meet(const mr_bvh_node *a, int i, const mr_bvh_node *b, int k)
+{
+	return a->lo[0][i] <= b->hi[0][k] && a->hi[0][i] >= b->lo[0][k] && a->lo[1][i] <= b->hi[1][k] &&
+	       a->hi[1][i] >= b->lo[1][k] && a->lo[2][i] <= b->hi[2][k] && a->hi[2][i] >= b->lo[2][k];
+}
+
+static float
+girth(const mr_bvh_node *a, int i)
+{
+	return a->hi[0][i] - a->lo[0][i] + a->hi[1][i] - a->lo[1][i] + a->hi[2][i] - a->lo[2][i];
+}
+
+/* Child i of a with child k of b, the larger one by its children; what is not there meets nothing. */
+static void
+cross(const search *s, const mr_bvh_node *a, int i, const mr_bvh_node *b, int k)
+{
+	if (!children_meet(a, i, b, k))
+		return;
+	if (a->count[i] && b->count[k]) {
+		for (uint32_t x = a->child[i]; x < a->child[i] + a->count[i]; x++)
+			for (uint32_t y = b->child[k]; y < b->child[k] + b->count[k]; y++)
+				look_at_pair(s, x, y);
+	} else if (b->count[k] || (!a->count[i] && girth(a, i) > girth(b, k))) {
+		for (int c = 0; c < BVH_WIDE; c++)
+			cross(s, &s->bvh->nodes[a->child[i]], c, b, k);
+	} else {
+		for (int c = 0; c < BVH_WIDE; c++)
+			cross(s, a, i, &s->bvh->nodes[b->child[k]], c);
 	}
 }
 
 static void
-look_at_pair(void *arg, uint32_t f, uint32_t g)
+cross_nodes(void *arg, size_t begin, size_t end)
 {
 	const search *s = arg;
-	mr_v3 p[3], q[3];
 
-	if (s->flat[f] || s->flat[g])
-		return;
-	mr_corners(s->m, f, p);
-	mr_corners(s->m, g, q);
-	if (mr_triangles_intersect(p, q))
-		s->visit(s->arg, f, g);
+	for (size_t n = begin; n < end; n++) {
+		const mr_bvh_node *d = &s->bvh->nodes[s->node[n]];
+		for (int i = 0; i < BVH_WIDE; i++) {
+			for (int k = i + 1; k < BVH_WIDE; k++)
+				cross(s, d, i, d, k);
+			for (uint32_t x = d->child[i]; d->count[i] && x < d->child[i] + d->count[i]; x++)
+				for (uint32_t y = d->child[i]; y < x; y++)
+					look_at_pair(s, x, y);
+		}
+	}
+}
+
+/* The nodes are in no row: each stands where there was room for its subtree. */
+static void
+list_nodes(mr_ctx *ctx, search *s)
+{
+	uint32_t *node = MR_NEW(ctx, bvh_node_bound(s->bvh->mesh->nf), uint32_t);
+	size_t n = 0;
+
+	node[n++] = 0;
+	for (size_t i = 0; i < n; i++)
+		for (int c = 0; c < BVH_WIDE; c++) {
+			const mr_bvh_node *d = &s->bvh->nodes[node[i]];
+			if (d->child[c] != MR_NONE && !d->count[c])
+				node[n++] = d->child[c];
+		}
+	s->node = node;
+	s->nodes = n;
+}
+
+/* No rounding takes apart what meets: all of it leaves the order of numbers as it is. */
+static void
+look_at_faces(void *arg, size_t begin, size_t end)
+{
+	const search *s = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 p[3];
+		mr_corners(s->bvh->mesh, s->bvh->face[i], p);
+		mr_box box = mr_box_of(p, 3);
+		mr_v3 lo = bvh_unit(s->bvh, box.min), hi = bvh_unit(s->bvh, box.max);
+		for (int k = 0; k < 3; k++) {
+			s->box[i].lo[k] = (float)mr_coordinate(lo, k);
+			s->box[i].hi[k] = (float)mr_coordinate(hi, k);
+		}
+		s->flat[i] = mr_triangle_degenerate(p[0], p[1], p[2]);
+	}
 }
 
 void
@@ -261,15 +345,22 @@ mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m,
     void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	search s = { m, MR_NEW(ctx, m->nf, bool), visit, arg };
+	search s = { .box = MR_NEW(ctx, m->nf, face_box),
+		.flat = MR_NEW(ctx, m->nf, bool),
+		.visit = visit,
+		.arg = arg };
 	mr_bvh *own;
 
+	if (m->nf == 0)
+		return;
 	if (!bvh) {
 		mr_bvh_build(ctx, m, &own);
 		bvh = own;
 	}
-	mr_parallel(ctx, m->nf, 4096, find_flat, &s);
-	mr_suspects_visit(ctx, bvh, look_at_pair, &s);
+	s.bvh = bvh;
+	list_nodes(ctx, &s);
+	mr_parallel(ctx, m->nf, 4096, look_at_faces, &s);
+	mr_parallel(ctx, s.nodes, 64, cross_nodes, &s);
 	mr_mark_release(ctx, mark);
 }
 
