@@ -553,6 +553,7 @@ typedef struct mr_simplify_opts {
 	bool error_relative;  /* error is a share of the bounding box's diagonal */
 	const double *room;   /* error allowed at each vertex, absolute; NULL: any */
 	size_t most;          /* faces beyond which room does not count */
+	size_t fine;          /* faces to stop at where there are more than that; 0: at `most` */
 	double boundary;      /* weight of the planes that hold boundary edges */
 	bool creases, smooth; /* sharp edges of a control mesh: or say why not; none; else as points show */
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */
@@ -561,7 +562,7 @@ typedef struct mr_simplify_opts {
 	uint8_t **sharp;      /* NULL: none are kept; else in and out: see simplify/simplify.h */
 } mr_simplify_opts;
 
-#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, false, NULL, NULL, NULL, NULL)
+#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 0, 10, false, false, NULL, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces; /* of the result */

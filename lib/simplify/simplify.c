@@ -20,6 +20,7 @@ static const uint16_t UNKNOWN = UINT16_MAX; /* no bucket: the edge has no merge 
 typedef struct simplifier {
 	mr_ctx *ctx;
 	const mr_simplify_opts *o;
+	const mr_mesh *m;
 	mr_dyn d;          /* scaled by a power of two to about unit size; at[v]: the number in the input */
 	double scale;      /* that power */
 	mr_site *site;     /* of each vertex */
@@ -30,6 +31,8 @@ typedef struct simplifier {
 	size_t target;     /* faces to stop at; 0: no such limit */
 	double limit;      /* error to stop at; infinite: no such limit */
 	size_t most;       /* faces for whose sake more is merged than there is room for */
+	size_t fine;       /* faces at which the mesh is kept, lest the most be too few; 0: nowhere */
+	bool kept;         /* before there is room for any error */
 	size_t faces, merges;
 	double longest; /* edge to be merged, as long as there is room: beside long ones short ones of a
 	                   crease swing */
@@ -195,12 +198,15 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 }
 
 /* Lets errors be larger, where there are more faces than the most, or needles be thinner; each once, for the
- * sake of a number of faces.  Of a mesh with sharp edges larger errors would close pockets and bend flats. */
+ * sake of a number of faces; but not where a finer mesh was kept.  Of a mesh with sharp edges larger errors
+ * would close pockets and bend flats. */
 static bool
 relax(simplifier *s)
 {
 	bool first = s->needle > LAST_NEEDLE && s->target > 0;
 
+	if (s->kept && s->faces > s->most)
+		return false;
 	if (s->most > 0 && s->faces > s->most && (!s->d.curve || s->o->weight)) {
 		s->target = s->most;
 		s->most = 0;
@@ -208,21 +214,6 @@ relax(simplifier *s)
 	}
 	s->needle = LAST_NEEDLE;
 	return first;
-}
-
-/* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged. */
-static void
-merge_all(simplifier *s)
-{
-	size_t before;
-
-	do {
-		uint32_t h, bucket;
-		before = s->merges;
-		fill_queue(s);
-		while (s->faces > s->target && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE)
-			serve(s, h, bucket);
-	} while (s->faces > s->target && (s->merges > before || relax(s)));
 }
 
 /* Adds the plane of face f to its corners, a third of the area each. */
@@ -337,6 +328,8 @@ begin(simplifier *s, const mr_mesh *m)
 		find_sharp_edges(s, m);
 	for (uint32_t v = 0; v < s->d.nv; v++)
 		s->site[v].room = s->o->room ? s->o->room[s->d.at[v]] : INFINITY;
+	if (s->fine)
+		s->most = 0;
 	add_quadrics(s);
 	mr_buckets_new(s->ctx, 3 * s->d.nf, &s->queue);
 	return MR_OK;
@@ -358,7 +351,7 @@ number_onto(simplifier *s, size_t nv, const uint32_t *number, uint32_t *onto)
 
 /* The vertices that live, in the order of the input's numbers, and their faces. */
 static void
-finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
+keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 {
 	const mr_dyn *d = &s->d;
 	mr_v3 *p = MR_NEW(s->ctx, d->nv - s->merges, mr_v3);
@@ -384,8 +377,32 @@ finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
 	}
 	if (s->o->sharp)
 		*s->o->sharp = sharp;
-	number_onto(s, m->nv, number, onto);
-	*out = (mr_mesh){ m->name, p, t, nv, nf };
+	number_onto(s, s->m->nv, number, onto);
+	*out = (mr_mesh){ s->m->name, p, t, nv, nf };
+	*r = (mr_simplify_result){ nv, nf, s->merges, 0, sqrt(s->error2) / s->scale };
+}
+
+/* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged. */
+static void
+merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
+{
+	size_t before;
+
+	do {
+		uint32_t h, bucket;
+		before = s->merges;
+		fill_queue(s);
+		while (s->faces > s->target && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE) {
+			serve(s, h, bucket);
+			if (!s->kept && s->faces <= s->fine) {
+				keep(s, out, onto, r);
+				s->kept = true;
+				s->most = s->o->most;
+			}
+		}
+	} while (s->faces > s->target && (s->merges > before || relax(s)));
+	if (!s->kept || s->faces <= s->o->most)
+		keep(s, out, onto, r);
 }
 
 mr_status
@@ -393,21 +410,23 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
     mr_simplify_result *result)
 {
 	double diagonal = mr_mesh_diagonal(m);
+	mr_simplify_result r;
 	simplifier s = { .ctx = ctx,
 		.o = opts,
+		.m = m,
 		.needle = MR_NEEDLE,
 		.longest = INFINITY,
 		.scale = diagonal > 0 ? ldexp(1, -(int)fmax(-1000, ilogb(diagonal)))
 		                      : 1, /* a number for any */
 		.target = opts->faces ? opts->faces : (size_t)ceil(opts->ratio * (double)m->nf),
 		.most = opts->room ? opts->most : 0,
+		.fine = opts->room ? opts->fine : 0,
 		.limit = opts->error <= 0       ? INFINITY
 		         : opts->error_relative ? opts->error * diagonal
 		                                : opts->error };
 
 	MR_TRY(begin(&s, m));
-	merge_all(&s);
-	finish(&s, m, out, onto);
+	merge_all(&s, out, onto, &r);
 	if (out->nf > s.target && s.target && !s.most && !isfinite(s.limit))
 		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
 				  .layer = m->name,
@@ -416,9 +435,6 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 				      "topology or fold it",
 				      m->name, out->nf, s.target) });
 	if (result)
-		*result = (mr_simplify_result){ .vertices = out->nv,
-			.faces = out->nf,
-			.merges = s.merges,
-			.error = sqrt(s.error2) / s.scale };
+		*result = r;
 	return MR_OK;
 }

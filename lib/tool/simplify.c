@@ -49,9 +49,12 @@ limit_by_points(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_si
 
 	for (size_t v = 0; v < m->nv; v++)
 		room[v] = OFF * mean / sqrt(o->weight[v]) + c->sampling.noise;
-	o->room = room;
 	o->faces = mr_simplify_faces_for(c->n);
 	o->most = mr_simplify_most_faces_for(c->n);
+	o->fine = mr_simplify_fine_faces_for(c->n);
+	o->room = o->faces < o->most ? room : NULL;
+	if (!o->room) /* of few points */
+		o->faces = o->fine;
 }
 
 /* The limits of a control mesh for a mesh. */
@@ -145,23 +148,6 @@ put_marks(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const uint8_t *mark, siz
 	return mark ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
 }
 
-/* Merges; where a control mesh for points has all the faces that it may have, again to as many as are enough. */
-static mr_status
-merge(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opts *o, mr_mesh *out,
-    uint32_t *onto, mr_simplify_result *r)
-{
-	uint8_t *marks = o->sharp ? *o->sharp : NULL;
-
-	MR_TRY(mr_simplify(ctx, m, o, out, onto, r));
-	if (c->n == 0 || !o->room || out->nf + 1 < o->most)
-		return MR_OK;
-	o->room = NULL;
-	o->faces = mr_simplify_fine_faces_for(c->n);
-	if (o->sharp)
-		*o->sharp = marks;
-	return mr_simplify(ctx, m, o, out, onto, r);
-}
-
 static mr_status
 simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 {
@@ -191,7 +177,7 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	onto = MR_NEW(ctx, surface.nv, uint32_t);
 	if (marks || (of_mesh(&o) && !o.smooth))
 		o.sharp = &marks;
-	MR_TRY(merge(ctx, &surface, &points, &o, &out, onto, r));
+	MR_TRY(mr_simplify(ctx, &surface, &o, &out, onto, r));
 	r->creases = look || o.creases ? 0 : MR_UNKNOWN;
 	if (points.n > 0)
 		MR_TRY(mr_sample_report_move(ctx, f, "points"));
