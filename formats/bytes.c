@@ -18,12 +18,6 @@ failed(mr_ctx *ctx, const char *path, const char *what)
 	return mr_fail(ctx, MR_EIO, "%s: %s: %s", path, what, strerror(errno));
 }
 
-static const char *
-shown(const char *path, const char *standard)
-{
-	return strcmp(path, "-") ? path : standard;
-}
-
 mr_status
 mr_file_bytes_end(mr_file_bytes *b, mr_status status)
 {
@@ -151,7 +145,7 @@ gunzip(mr_ctx *ctx, mr_file_bytes *b)
 mr_status
 mr_file_bytes_read(mr_ctx *ctx, const char *path, mr_file_bytes *b)
 {
-	const char *name = shown(path, "stdin");
+	const char *name = strcmp(path, "-") ? path : "stdin";
 	mr_file_bytes got = { 0 };
 	mr_status status;
 	int fd;

@@ -126,13 +126,6 @@ write_heights(mr_ctx *ctx, mapping *m, const char *path)
 
 /* ---- normals ---- */
 
-/* A tangent at a corner, made perpendicular to the normal there. */
-static mr_v3
-tangent_at(mr_v3 along, mr_v3 normal)
-{
-	return mr_unit(mr_axpy(-mr_dot(along, normal), normal, along));
-}
-
 /*
  * The frame in which a program shades control: tangent and normal are those of the corners, interpolated and
  * not made unit, the bitangent is their cross product (Mikkelsen 2008, Simulation of wrinkled surfaces
@@ -149,7 +142,7 @@ frame_at(const mapping *m, const mr_texel *t, mr_v3 frame[3])
 		along = mr_mul(-1, along);
 	for (int k = 0; k < 3; k++) {
 		normal[k] = m->domain.normal[v[k]];
-		tangent[k] = tangent_at(along, normal[k]);
+		tangent[k] = mr_unit(mr_axpy(-mr_dot(along, normal[k]), normal[k], along));
 	}
 	frame[0] = mr_bary_point(bary, tangent[0], tangent[1], tangent[2]);
 	frame[2] = mr_bary_point(bary, normal[0], normal[1], normal[2]);

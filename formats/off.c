@@ -252,12 +252,6 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 /* ---- written ---- */
 
-static uint32_t
-vertex_of(const mr_model *m, uint32_t corner)
-{
-	return m->t[corner / 3].v[corner % 3];
-}
-
 mr_status
 mr_off_write(mr_sink *s, const mr_model *m)
 {
@@ -276,7 +270,8 @@ mr_off_write(mr_sink *s, const mr_model *m)
 		for (size_t i = mr_polygon_begin(&faces, f); i < mr_polygon_begin(&faces, f + 1); i++) {
 			char *to = mr_sink_room(s);
 			*to++ = ' ';
-			mr_sink_fill(s, mr_count_write(to, vertex_of(m, mr_polygon_corner(&faces, i))));
+			uint32_t corner = mr_polygon_corner(&faces, i);
+			mr_sink_fill(s, mr_count_write(to, m->t[corner / 3].v[corner % 3]));
 		}
 		mr_put(s, "\n", 1);
 	}

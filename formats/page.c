@@ -134,13 +134,6 @@ step_of(double extent)
 	return ldexp(1, exponent - 24);
 }
 
-/* 0, -1, 1, -2, ... as 0, 1, 2, 3, ... */
-static uint32_t
-unsign(uint32_t step)
-{
-	return step << 1 ^ (step >> 31 ? UINT32_MAX : 0);
-}
-
 /* The whole number of a value: modulo 2^32, as its differences are. */
 static uint32_t
 whole(const mr_column *c, const whole_steps *s, size_t at, size_t component)
@@ -160,8 +153,9 @@ sum_steps(const mr_column *c, const whole_steps *s, uint32_t *sums)
 	for (size_t k = 0; k < kept; k++) {
 		uint32_t sum = 0, before = 0;
 		for (size_t i = 0; i < rows; i++) {
-			uint32_t now = whole(c, s, width * i + k, k);
-			sums[kept * i + k] = sum += unsign(now - before);
+			uint32_t now = whole(c, s, width * i + k, k), step = now - before;
+			/* 0, -1, 1, -2, ... as 0, 1, 2, 3, ... */
+			sums[kept * i + k] = sum += step << 1 ^ (step >> 31 ? UINT32_MAX : 0);
 			before = now;
 		}
 	}

@@ -274,19 +274,14 @@ most_of(const table *t, size_t i)
 	return most;
 }
 
-static bool
-are_whole(const table *t, size_t i)
-{
-	return !t->column[i].seen.broken && !t->column[i + 1].seen.broken && !t->column[i + 2].seen.broken;
-}
-
 /* Whole numbers of 0 to 255, some beyond 1. */
 static bool
 could_be_color(const table *t, size_t i)
 {
+	const column *c = t->column + i;
 	double most = most_of(t, i);
 
-	return most > 1 && most <= 255 && are_whole(t, i);
+	return most > 1 && most <= 255 && !c[0].seen.broken && !c[1].seen.broken && !c[2].seen.broken;
 }
 
 /* Nearly all rows that are not zero are of length 1. */

@@ -7,12 +7,6 @@
 
 /* Assembly */
 
-static double
-diagonal(const mr_sparse *l, size_t i)
-{
-	return l->value[mr_sparse_find(l, (int)i, (int)i)];
-}
-
 /*
  * W, made free of units by the mean.  An area below a hundred-millionth of the mean counts as that much, and
  * one so small for the weights there that a row of L W L has that over its usual size: W stays finite, and
@@ -30,7 +24,7 @@ weigh(mr_ctx *ctx, mr_deform_system *s)
 	for (size_t i = 0; i < n; i++)
 		mean += s->w[i] / (double)n;
 	for (size_t i = 0; i < n; i++) {
-		double d = diagonal(&s->l, i);
+		double d = s->l.value[mr_sparse_find(&s->l, (int)i, (int)i)];
 		s->w[i] = s->opts.areas == MR_AREAS_MEAN || !(mean > 0)
 		              ? 1
 		              : fmin(1 / fmax(s->w[i] / mean, smallest), largest / (d * d));

@@ -22,12 +22,6 @@ same_triangles(const mr_mesh *a, const mr_mesh *b)
 	       (a->t == b->t || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
 }
 
-static bool
-same_places(const mr_v3 *a, const mr_v3 *b, size_t n)
-{
-	return a == b || !memcmp(a, b, n * sizeof *a);
-}
-
 double
 mr_farthest(const mr_v3 *then, const mr_v3 *now, size_t n)
 {
@@ -207,7 +201,7 @@ judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer,
 		mr_judge_remade(ctx, &then, &now);
 		return MR_OK;
 	}
-	if (same_places(then.p, now.p, now.nv))
+	if (then.p == now.p || !memcmp(then.p, now.p, now.nv * sizeof *now.p))
 		return MR_OK;
 	if (least) {
 		double most = mr_farthest(then.p, now.p, now.nv);

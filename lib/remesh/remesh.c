@@ -217,17 +217,6 @@ faces_wanted(const mr_remesh_opts *o)
 	return o->faces > 0 ? (double)o->faces : 2 * (double)o->vertices;
 }
 
-/*
- * The length that will about give the number that is wanted, by area alone: where the surface is thinner than
- * its edges that is too short, which the rounds mend. One too long they cannot: it flattens limbs for good.
- */
-static void
-aim(remesher *r)
-{
-	if (faces_wanted(r->o) > 0)
-		lengthen(r, sqrt(mr_remesh_demand(&r->d, &r->source).area / faces_wanted(r->o)));
-}
-
 /* How many times as many as are wanted there are; 1 where none is. */
 static double
 excess(const remesher *r)
@@ -281,7 +270,10 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	r->mean = r->length ? MR_NEW(r->ctx, m->nf, double) : NULL;
 	r->source = (mr_remesh_source){ m, topo, r->curve, r->length, r->mean, uniform };
 	find_means(r);
-	aim(r);
+	/* By area alone: where the surface is thinner than its edges that is too short, which the rounds
+	 * mend. One too long they cannot: it flattens limbs for good. */
+	if (faces_wanted(r->o) > 0)
+		lengthen(r, sqrt(mr_remesh_demand(&r->d, &r->source).area / faces_wanted(r->o)));
 	if (r->o->project)
 		mr_pin_tips(r->ctx, &r->d, &r->source);
 	return MR_OK;

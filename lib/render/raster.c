@@ -77,17 +77,12 @@ item_extent(const mr_raster_view *v, size_t item, range *x, range *y)
 	return x->begin < x->end && y->begin < y->end;
 }
 
-static size_t
-item_count(const mr_raster_view *v)
-{
-	return v->subject->mesh.nf ? v->subject->mesh.nf : v->subject->mesh.nv;
-}
-
 /* Lists, for each band, the items that may touch it, by index. */
 static void
 fill_bands(mr_ctx *ctx, mr_raster_view *v)
 {
-	size_t bands = (v->h + BAND - 1) / BAND, items = item_count(v);
+	const mr_mesh *m = &v->subject->mesh;
+	size_t bands = (v->h + BAND - 1) / BAND, items = m->nf ? m->nf : m->nv;
 	range x, y;
 
 	v->start = MR_NEW_ZERO(ctx, bands + 2, size_t);

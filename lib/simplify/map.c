@@ -14,13 +14,6 @@ typedef struct place_job {
 	mr_v3 *bary;
 } place_job;
 
-/* Whether a face of m looks to the side that a normal does. */
-static bool
-agrees(const mr_mesh *m, uint32_t face, mr_v3 normal)
-{
-	return mr_dot(mr_face_cross(m, face), normal) > 0;
-}
-
 /*
  * A walk stays on its sheet but may end at a local minimum.  Where a place is nearer than that it counts, if
  * its face looks to the same side as the vertex; else it is that of another sheet.
@@ -36,7 +29,9 @@ place(const place_job *j, size_t i)
 		return mr_bvh_closest(j->bvh, q);
 	walked = mr_project_walk(j->m, j->topo, j->topo->out[j->start[i]] / 3, q);
 	near = mr_bvh_closest_within(j->bvh, q, (1 - rounding) * walked.dist2);
-	return near.at.face != MR_NONE && agrees(j->m, near.at.face, j->normal[i]) ? near : walked;
+	return near.at.face != MR_NONE && mr_dot(mr_face_cross(j->m, near.at.face), j->normal[i]) > 0
+	           ? near
+	           : walked;
 }
 
 static void

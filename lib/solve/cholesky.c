@@ -117,13 +117,6 @@ panels_of(const cholmod_factor *f)
 		.permutation = f->Perm };
 }
 
-/* The panels, their rows, and the largest update matrix. */
-static double
-bytes_of(const cholmod_factor *f)
-{
-	return (double)(f->xsize + f->maxcsize) * sizeof(double) + (double)f->ssize * sizeof(int);
-}
-
 /* OpenBLAS 0.3 tries for ever where its buffer of 128 MB cannot be had.  Where there is less than that the
  * factor is too large; where there seems to be more, its failure is one. */
 static mr_status
@@ -154,7 +147,8 @@ cholesky_setup(
 	MR_TRY(check_room(ctx));
 	MR_TRY(analyse(ctx, c, &upper, system->part));
 	analysed = mr_seconds();
-	bytes = bytes_of(c->factor);
+	bytes = (double)(c->factor->xsize + c->factor->maxcsize) * sizeof(double) +
+	        (double)c->factor->ssize * sizeof(int);
 	if (opts->memory > 0 && bytes > opts->memory)
 		return mr_fail(ctx, MR_ERANGE,
 		    "the factor of %zu rows takes %.3g MB, more than the %.3g MB there are", c->factor->n,

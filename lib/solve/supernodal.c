@@ -57,12 +57,6 @@ divide(wide *z, double l)
 	*z /= l;
 }
 
-static MR_INLINED void
-add(wide *z, const wide *y)
-{
-	*z += *y;
-}
-
 /*
  * Columns are too short for the machine to see what comes next, so it is told.  Beyond the factor, where this
  * may point, nothing is fetched.
@@ -161,7 +155,7 @@ forward_panel(mr_supernodal *s, size_t p)
 	forward(l->value + l->value_at[p], nr, nc, z);
 	memcpy(x, z, nc * sizeof *z);
 	for (size_t i = nc; i < nr; i++)
-		add(&s->x[row[i]], &z[i]);
+		s->x[row[i]] += z[i];
 }
 
 MR_VECTORS static void

@@ -98,12 +98,6 @@ mr_near_distinct(const mr_near *near)
 	return near->rows;
 }
 
-static bool
-after(double da, uint32_t ia, double db, uint32_t ib)
-{
-	return da != db ? da > db : ia > ib;
-}
-
 /* FLANN's k rows of one query, as indices of p, nearest first. */
 static void
 order(const mr_near *near, mr_v3 q, const size_t *row, size_t k, uint32_t *index, double *dist2)
@@ -112,7 +106,7 @@ order(const mr_near *near, mr_v3 q, const size_t *row, size_t k, uint32_t *index
 		uint32_t x = near->original[row[i]];
 		double d = mr_norm2(mr_sub(q, near->p[x]));
 		size_t j = i;
-		for (; j > 0 && after(dist2[j - 1], index[j - 1], d, x); j--) {
+		for (; j > 0 && (dist2[j - 1] > d || (dist2[j - 1] == d && index[j - 1] > x)); j--) {
 			index[j] = index[j - 1];
 			dist2[j] = dist2[j - 1];
 		}

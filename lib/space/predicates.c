@@ -142,13 +142,6 @@ minor(const difference *a, const difference *b, const difference *c, const diffe
 	return add(n, h, m, right);
 }
 
-/* The largest term of an expansion has its sign. */
-static int
-expansion_sign(int n, const double *e)
-{
-	return n ? sign(e[n - 1]) : 0;
-}
-
 static int
 exact3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d)
 {
@@ -163,7 +156,7 @@ exact3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d)
 		int m = minor(&x[j], &x[k], &y[j], &y[k], xy);
 		n = add(n, sum, multiply(m, xy, z[i].n, z[i].e, term), term);
 	}
-	return -expansion_sign(n, sum);
+	return n ? -sign(sum[n - 1]) : 0; /* the largest term of an expansion has its sign */
 }
 
 bool

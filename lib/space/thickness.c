@@ -14,13 +14,6 @@ typedef struct caster {
 	double *across;      /* of each face; NAN: to be cast, INFINITY: not known */
 } caster;
 
-/* The mean of the corners' normals; zero where they cancel. */
-static mr_v3
-direction_of(const caster *c, const uint32_t *v)
-{
-	return mr_unit(mr_add(c->normal[v[0]], mr_add(c->normal[v[1]], c->normal[v[2]])));
-}
-
 static void
 cast_faces(void *arg, size_t begin, size_t end)
 {
@@ -29,10 +22,13 @@ cast_faces(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		uint32_t f = mr_bvh_order(c->bvh)[i];
+		const uint32_t *v = c->m->t[f].v;
+		mr_v3 normal;
 		if (!isnan(c->across[f]))
 			continue;
+		normal = mr_add(c->normal[v[0]], mr_add(c->normal[v[1]], c->normal[v[2]]));
 		c->across[f] = mr_bvh_across(c->bvh, mr_place_point(c->m, (mr_place){ f, centre }),
-		    direction_of(c, c->m->t[f].v), c->least, c->most);
+		    mr_unit(normal), c->least, c->most);
 	}
 }
 

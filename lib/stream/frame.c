@@ -95,13 +95,6 @@ mr_frame_has_layer(const mr_frame *frame, const char *layer)
 	return false;
 }
 
-static mr_status
-missing(mr_ctx *ctx, const char *layer, const char *name)
-{
-	return *layer ? mr_fail(ctx, MR_EMISSING, "%s: no column %s", layer, name)
-	              : mr_fail(ctx, MR_EMISSING, "no column %s", name);
-}
-
 mr_status
 mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape,
     const void **data, size_t *rows)
@@ -109,7 +102,7 @@ mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 	mr_column *c = frame->count ? find(frame, layer, name) : NULL;
 
 	if (!c)
-		return missing(ctx, layer, name);
+		return mr_fail(ctx, MR_EMISSING, "%s%sno column %s", layer, *layer ? ": " : "", name);
 	if (!mr_same_shape(c->shape, shape))
 		return mr_fail(ctx, MR_EMISSING, "%s%scolumn %s is %c %c%u, not %c %c%u", layer,
 		    *layer ? ": " : "", name, c->shape.element, c->shape.type, c->shape.components,

@@ -112,13 +112,6 @@ check_piece(mr_ctx *ctx, const piece *p)
 	return mr_record_verify(ctx, p->record, p->record + MR_HEADER, (size_t)p->head.stored, p->offset);
 }
 
-/* The first bytes of something that is no stream, however short. */
-static bool
-stranger(const mr_reader *r, const unsigned char *header, size_t got)
-{
-	return !r->inside && memcmp(header, MR_MAGIC, got < MR_MAGIC_BYTES ? got : MR_MAGIC_BYTES) != 0;
-}
-
 static bool
 is_gzip(const unsigned char *header, size_t got)
 {
@@ -139,7 +132,8 @@ read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
 		mr_input_end(&r->in);
 		return MR_END;
 	}
-	if (stranger(r, header, got))
+	/* however short it is */
+	if (!r->inside && memcmp(header, MR_MAGIC, got < MR_MAGIC_BYTES ? got : MR_MAGIC_BYTES) != 0)
 		return mr_advise(ctx, r->ended || is_gzip(header, got) ? MR_NO_REMEDY : MR_IMPORT,
 		    mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here%s",
 			(unsigned long long)p->offset,
