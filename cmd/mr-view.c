@@ -13,13 +13,6 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_page_result, layers),
-	CMD_COUNTED(mr_page_result, columns),
-	CMD_COUNTED(mr_page_result, left_out),
-	{ 0 },
-};
-
 static mr_status
 prepare(cmd *c)
 {
@@ -32,12 +25,8 @@ prepare(cmd *c)
 static mr_status
 view_frame(cmd *c, mr_frame *f)
 {
-	mr_page_result result;
-
 	page.from = c->file;
-	MR_TRY(mr_page_add(&c->ctx, &page, f, c->layer, &result));
-	cmd_figures(c, figures, &result);
-	return MR_OK;
+	return mr_page_add(&c->ctx, &page, f, c->layer);
 }
 
 static mr_status

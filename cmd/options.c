@@ -18,8 +18,10 @@ fail_range(mr_ctx *ctx, const char *what, const char *text, double min, double m
 	return mr_fail(ctx, MR_EUSAGE, "%s: %s is not between %.15g and %.15g", what, text, min, max);
 }
 
-mr_status
-cmd_parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double max, double *value)
+/* Parses the whole of `text` as a finite number in [min, max]: MR_EUSAGE with a sentence that begins with
+ * `what`. */
+static mr_status
+parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double max, double *value)
 {
 	char *end;
 	double x;
@@ -32,8 +34,8 @@ cmd_parse_real(mr_ctx *ctx, const char *what, const char *text, double min, doub
 	return MR_OK;
 }
 
-mr_status
-cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value)
+static mr_status
+parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value)
 {
 	unsigned long long n;
 	char *end;
@@ -97,7 +99,7 @@ parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 
 	if (!number_at(number, &end, &x) || *end)
 		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
-	MR_TRY(cmd_parse_real(ctx, what, number, o->min, o->max, &x));
+	MR_TRY(parse_real(ctx, what, number, o->min, o->max, &x));
 	*(double *)o->value = relative ? x / 100 : x;
 	*relative_of(o) = relative;
 	return MR_OK;
@@ -113,8 +115,8 @@ parse_size(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 	if (!x || x - text >= (int)sizeof width)
 		return mr_fail(ctx, MR_EUSAGE, "%s: %s is not of the form WxH", what, text);
 	snprintf(width, sizeof width, "%.*s", (int)(x - text), text);
-	MR_TRY(cmd_parse_count(ctx, what, width, (size_t)o->min, (size_t)o->max, &size[0]));
-	return cmd_parse_count(ctx, what, x + 1, (size_t)o->min, (size_t)o->max, &size[1]);
+	MR_TRY(parse_count(ctx, what, width, (size_t)o->min, (size_t)o->max, &size[0]));
+	return parse_count(ctx, what, x + 1, (size_t)o->min, (size_t)o->max, &size[1]);
 }
 
 static mr_status
@@ -156,9 +158,9 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 		*(bool *)o->value = o->kind == CMD_FLAG;
 		return MR_OK;
 	case CMD_REAL:
-		return cmd_parse_real(ctx, what, text, o->min, o->max, o->value);
+		return parse_real(ctx, what, text, o->min, o->max, o->value);
 	case CMD_COUNT:
-		return cmd_parse_count(ctx, what, text, (size_t)o->min, (size_t)o->max, o->value);
+		return parse_count(ctx, what, text, (size_t)o->min, (size_t)o->max, o->value);
 	case CMD_CHOICE:
 		return parse_choice(ctx, o, what, text);
 	case CMD_TEXT:

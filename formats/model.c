@@ -110,8 +110,8 @@ mr_note_lost(mr_sink *s, const mr_model *m, const char *keeps)
 
 /* ---- attributes follow their vertices and faces ---- */
 
-void
-mr_model_to_points(mr_model *m)
+static void
+drop_faces(mr_model *m)
 {
 	size_t kept = 0;
 
@@ -316,7 +316,7 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	if (o->points) {
 		mr_lost(ctx, NULL, m.corner_normal ? 3 * m.nf : 0, "normals of corners");
 		mr_lost(ctx, NULL, m.corner_texcoord ? 3 * m.nf : 0, "texture coordinates of corners");
-		mr_model_to_points(&m);
+		drop_faces(&m);
 	}
 	box = mr_mesh_box(&(mr_mesh){ .p = m.p, .nv = m.nv, .t = m.t, .nf = m.nf });
 	judge_grain(ctx, &m, box);

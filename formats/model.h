@@ -7,9 +7,6 @@
 #include "formats/formats.h"
 #include "mesh/layers.h"
 
-/* Drops the faces: what is left is a cloud. */
-void mr_model_to_points(mr_model *m);
-
 /*
  * Puts the model as this layer, or, where `layer` is NULL, as `mesh`, without faces as `points`; the frame
  * borrows its arrays.

@@ -483,24 +483,15 @@ wear_pictures(mr_ctx *ctx, mr_frame *f, mr_page_pictures *pictures, bool *shown,
 /* How columns are stored, and which file (without folder and suffix) they are from, are told in a text of no
  * layer, `page`. */
 static mr_status
-take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const displaced *d, mr_frame *to,
-    mr_page_result *r)
+take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const displaced *d, mr_frame *to)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
 	const char *stem = page->from ? mr_format_stem(ctx, page->from) : NULL;
 	mr_text notes = { .ctx = ctx };
 
-	for (size_t i = 0; i < from->count; i++) {
-		const mr_column *c = &from->columns[i];
-		shown[i] = is_shown(from, c, layers, d);
-		r->layers += shown[i] && *c->layer && !strcmp(c->name, "position");
-	}
+	for (size_t i = 0; i < from->count; i++)
+		shown[i] = is_shown(from, &from->columns[i], layers, d);
 	MR_TRY(wear_pictures(ctx, from, &page->pictures, shown, &notes));
-	for (size_t i = 0; i < from->count; i++) {
-		r->columns += shown[i];
-		r->left_out += !shown[i];
-	}
-	r->layers += d->there;
 	if (stem)
 		mr_text_add(&notes, "file %s\n", stem);
 	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
@@ -541,17 +532,16 @@ check_size(mr_ctx *ctx, off_t size, const mr_page_pictures *pictures)
 }
 
 mr_status
-mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_page_result *result)
+mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers)
 {
 	mr_frame shown = { .name = frame->name, .key = frame->key, .number = frame->number };
 	displaced surface;
 
-	*result = (mr_page_result){ 0 };
 	MR_TRY(find_displaced(ctx, page, frame, layers, &surface));
 	MR_TRY(check_layers(ctx, frame, layers, &surface));
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
-	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown, result));
+	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(mr_writer_put(ctx, page->writer, &shown));
 	page->frames++;

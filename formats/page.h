@@ -18,18 +18,12 @@ typedef struct mr_page {
 	const char *from; /* the caller's to set: the file that frames come from now; NULL: none to be told */
 } mr_page;
 
-/* What was taken of a frame. */
-typedef struct mr_page_result {
-	size_t layers, columns, left_out; /* left_out: columns that the page has no use for */
-} mr_page_result;
-
 /*
  * Adds a frame: of the layers in the list (NULL: all that have positions) what a page shows, doubles rounded
  * to 24 bits.  MR_EMISSING for a layer that the frame has not; MR_ERANGE where the page is too large for a
  * browser; MR_EFORMAT for a texture that is no picture.
  */
-mr_status mr_page_add(
-    mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_page_result *result) MR_WARN_UNUSED;
+mr_status mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers) MR_WARN_UNUSED;
 
 /*
  * Writes the page: the text of `html`, in which the frames take the place of the line <!-- stream -->.  held:

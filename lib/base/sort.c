@@ -13,8 +13,8 @@ compare_indices(const void *a, const void *b)
 	return (*x > *y) - (*x < *y);
 }
 
-void
-mr_sort_indices(uint32_t *x, size_t n)
+static void
+sort_indices(uint32_t *x, size_t n)
 {
 	if (n > SHORT) {
 		qsort(x, n, sizeof *x, compare_indices);
@@ -34,7 +34,7 @@ mr_sort_unique(uint32_t *x, size_t n)
 {
 	size_t kept = 0;
 
-	mr_sort_indices(x, n);
+	sort_indices(x, n);
 	for (size_t i = 0; i < n; i++)
 		if (i == 0 || x[i] != x[kept - 1])
 			x[kept++] = x[i];

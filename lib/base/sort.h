@@ -6,8 +6,6 @@
 
 #include "base/ctx.h"
 
-void mr_sort_indices(uint32_t *x, size_t n);
-
 /* Sorts and drops repetitions; returns how many are left. */
 size_t mr_sort_unique(uint32_t *x, size_t n);
 

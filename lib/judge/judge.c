@@ -22,8 +22,9 @@ same_triangles(const mr_mesh *a, const mr_mesh *b)
 	       (a->t == b->t || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
 }
 
-double
-mr_farthest(const mr_v3 *then, const mr_v3 *now, size_t n)
+/* The largest distance that a vertex went. */
+static double
+farthest(const mr_v3 *then, const mr_v3 *now, size_t n)
 {
 	double most = 0;
 
@@ -147,7 +148,7 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 
 	MR_TRY(displaced_then(ctx, before, 0, &control, &d, &then));
 	if (mesh->nv >= control.nv &&
-	    mr_farthest(then, mesh->p, control.nv) <= mr_mesh_tolerance(&control, 1e-9))
+	    farthest(then, mesh->p, control.nv) <= mr_mesh_tolerance(&control, 1e-9))
 		return MR_OK;
 	MR_TRY(mr_domain_level(ctx, &control, mesh->nv, &n));
 	MR_TRY(displaced_then(ctx, before, n, &control, &d, &then));
@@ -204,7 +205,7 @@ judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer,
 	if (then.p == now.p || !memcmp(then.p, now.p, now.nv * sizeof *now.p))
 		return MR_OK;
 	if (least) {
-		double most = mr_farthest(then.p, now.p, now.nv);
+		double most = farthest(then.p, now.p, now.nv);
 		if (most < *least)
 			return MR_OK;
 		*least = 2 * most;

@@ -61,10 +61,6 @@ typedef struct mr_harm {
  */
 void mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm);
 
-/* Whether faces f and g stand to each other as they did: where they touch, rounding decides whether they
- * intersect. */
-bool mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g);
-
 /* Folds and intersections that came. */
 void mr_judge_harm(mr_ctx *ctx, const mr_motion *m);
 
@@ -80,8 +76,5 @@ void mr_judge_pose(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, bool clo
 
 /* A surface of other triangles against what it was made of. */
 void mr_judge_remade(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now);
-
-/* The largest distance that a vertex went. */
-double mr_farthest(const mr_v3 *then, const mr_v3 *now, size_t n);
 
 #endif

@@ -53,8 +53,9 @@ place_in(const mr_mesh *m, size_t face, size_t i)
 	    a, mr_sub(m->p[v[1]], m->p[v[0]]), mr_axpy(b, mr_sub(m->p[v[2]], m->p[v[0]]), m->p[v[0]]));
 }
 
-size_t
-mr_spread_places(mr_ctx *ctx, const mr_mesh *m, size_t n, mr_v3 *q)
+/* A place in each of n equal parts of the area, in the order of the faces; how many: 0 of no area.  q: n. */
+static size_t
+spread_places(mr_ctx *ctx, const mr_mesh *m, size_t n, mr_v3 *q)
 {
 	double step = 2 * mr_mesh_area(ctx, m) / (double)n, sum = 0;
 	size_t i = 0;
@@ -77,7 +78,7 @@ mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size
 	double *distance = MR_NEW(ctx, samples, double);
 	size_t n, bare = 0;
 
-	n = mr_spread_places(ctx, m, samples, q);
+	n = spread_places(ctx, m, samples, q);
 	MR_TRY(mr_near_query(ctx, cloud->near, q, n, 1, nearest, distance));
 	for (size_t i = 0; i < n; i++) {
 		double wide;
@@ -136,7 +137,7 @@ mr_gaps_add(
 	mr_v3 *q = MR_NEW(ctx, samples + corners, mr_v3);
 	double *distance = MR_NEW(ctx, samples + corners, double);
 
-	n = mr_spread_places(ctx, from, samples, q);
+	n = spread_places(ctx, from, samples, q);
 	for (size_t i = 0; i < corners; i++) {
 		size_t h = i * 3 * from->nf / corners;
 		q[n + i] = from->p[from->t[h / 3].v[h % 3]];

@@ -58,7 +58,4 @@ mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t
 /* Reports where a layer, the surface of a control mesh, is too far from the mesh that it is made of. */
 void mr_mesh_gaps_report(mr_ctx *ctx, const char *layer, const mr_mesh_gaps *gaps, const mr_mesh *mesh);
 
-/* A place in each of n equal parts of the area, in the order of the faces; how many: 0 of no area.  q: n. */
-size_t mr_spread_places(mr_ctx *ctx, const mr_mesh *m, size_t n, mr_v3 *q);
-
 #endif

@@ -122,8 +122,9 @@ mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer)
 	return MR_OK;
 }
 
-mr_status
-mr_layer_finished(mr_ctx *ctx, mr_frame *f)
+/* MR_EMISSING, with the tool that is missing, where what was done shows in no surface yet. */
+static mr_status
+finished(mr_ctx *ctx, mr_frame *f)
 {
 	static const char *const leading[] = { "handles", "base", "displacement", "control" };
 
@@ -142,7 +143,7 @@ mr_layer_finished(mr_ctx *ctx, mr_frame *f)
 mr_status
 mr_layer_finished_or_warn(mr_ctx *ctx, mr_frame *f)
 {
-	mr_status status = mr_layer_finished(ctx, f);
+	mr_status status = finished(ctx, f);
 
 	if (status != MR_EMISSING)
 		return status;
@@ -159,7 +160,7 @@ mr_layer_result(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer)
 	static const char *const layers[] = { "mesh", "control", "points", "base", NULL };
 
 	if (!only) {
-		MR_TRY(mr_layer_finished(ctx, f));
+		MR_TRY(finished(ctx, f));
 		MR_TRY(mr_layer_latest(ctx, f, &only));
 	}
 	return mr_layer_choose(ctx, f, only, layers, layer);

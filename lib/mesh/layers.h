@@ -99,9 +99,6 @@ mr_status mr_layer_is_pending(mr_ctx *ctx, mr_frame *f, const char *layer, bool 
 /* The layer that was worked on last; NULL where it is not known. */
 mr_status mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer);
 
-/* MR_EMISSING, with the tool that is missing, where what was done shows in no surface yet. */
-mr_status mr_layer_finished(mr_ctx *ctx, mr_frame *f);
-
 /* The same as a warning, of key frames: for a tool that shows several layers, by their names. */
 mr_status mr_layer_finished_or_warn(mr_ctx *ctx, mr_frame *f);
 

@@ -78,8 +78,14 @@ compose_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
-mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *base_map,
+/*
+ * Composes maps: `over` places n vertices on the base, `base_map` those of the base on the mesh;
+ * *map places the n vertices on the mesh.  Where base and mesh have the same triangles and base_map is
+ * the identity, so is the composition; else the point between the corners' points, drawn
+ * to the mesh by a walk from the nearest corner.  map: in the arena.
+ */
+static mr_status
+compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *base_map,
     const mr_places *over, size_t n, mr_places *map)
 {
 	uint32_t *face;
@@ -150,7 +156,7 @@ mr_source_map_follow(
 		return MR_OK;
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
 	MR_TRY(mr_source_map_get(ctx, f, &mesh, m->nv, &base_map));
-	return mr_source_map_compose(ctx, &mesh, m, &base_map, over, n, map);
+	return compose(ctx, &mesh, m, &base_map, over, n, map);
 }
 
 mr_status

@@ -13,15 +13,6 @@
 void mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map);
 
 /*
- * Composes maps: `over` places n vertices on the base, `base_map` those of the base on the mesh;
- * *map places the n vertices on the mesh.  Where base and mesh have the same triangles and base_map is
- * the identity, so is the composition; else the point between the corners' points, drawn
- * to the mesh by a walk from the nearest corner.  map: in the arena.
- */
-mr_status mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base,
-    const mr_places *base_map, const mr_places *over, size_t n, mr_places *map);
-
-/*
  * MR_ERANGE where a place of the map, of base_nv vertices, is on no face of the mesh's or not within it.
  */
 mr_status mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_places *map);

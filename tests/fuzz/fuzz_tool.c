@@ -249,8 +249,7 @@ static mr_status
 view(const job *j)
 {
 	mr_page page = { 0 };
-	mr_page_result r;
-	mr_status status = mr_page_add(j->ctx, &page, j->f, NULL, &r);
+	mr_status status = mr_page_add(j->ctx, &page, j->f, NULL);
 
 	mr_page_free(&page);
 	return status;
