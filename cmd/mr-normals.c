@@ -3,7 +3,6 @@
 
 static mr_normals_opts opts;
 static mr_v3 from;
-static int weights;
 
 static const cmd_opt table[] = {
 	{ 'n', "neighbours", CMD_COUNT, &opts.neighbours, 0, 128, "N",
@@ -14,14 +13,12 @@ static const cmd_opt table[] = {
 	    NULL },
 	{ 0, "keep", CMD_FLAG, &opts.keep, 0, 0, "", "keep the normals that are there and fit", NULL },
 	{ 0, "flip", CMD_FLAG, &opts.flip, 0, 0, "", "turn all over at the end", NULL },
-	{ 0, "weights", CMD_CHOICE, &weights, 0, 0, "angle|area", "of a surface: what faces weigh by", NULL },
 	{ 0 },
 };
 
 static mr_status
 prepare(cmd *c)
 {
-	opts.by_area = weights == 1;
 	opts.from = cmd_given(c, "from") ? &from : NULL;
 	if (opts.neighbours == 1 || opts.neighbours == 2)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--neighbours: %zu points show no plane", opts.neighbours);

@@ -367,7 +367,6 @@ MR_API mr_status mr_transform_frame(
 typedef struct mr_normals_opts {
 	size_t neighbours; /* that show the plane of a point; 0: by the noise */
 	bool keep, flip;   /* leave the normals that are there and fit; turn all over at the end */
-	bool by_area;      /* of a surface: faces weigh by area, not by angle */
 	const mr_v3 *from; /* normals of points point there; NULL: to column scanner, or outward */
 	const char *layer; /* NULL: mesh, else control, else points */
 } mr_normals_opts;

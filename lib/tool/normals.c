@@ -89,8 +89,6 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 	mr_sampling s;
 	places q;
 
-	if (o->by_area)
-		return mr_fail(ctx, MR_EUSAGE, "%s has no faces: weights are of surfaces", m->name);
 	MR_TRY(mr_sampling_of(ctx, f, m, &s));
 	if (o->neighbours)
 		s.neighbours = o->neighbours;
@@ -109,18 +107,10 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 static mr_status
 of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *normal)
 {
-	const mr_v3 *sum;
-
 	if (o->neighbours || o->from)
 		return mr_fail(ctx, MR_EUSAGE,
 		    "%s has faces: neighbours and the place they are seen from are of points", m->name);
-	if (!o->by_area) {
-		mr_vertex_normals(ctx, m, NULL, normal);
-		return MR_OK;
-	}
-	sum = mr_area_normals(ctx, m);
-	for (size_t v = 0; v < m->nv; v++)
-		normal[v] = mr_unit(sum[v]);
+	mr_vertex_normals(ctx, m, NULL, normal);
 	return MR_OK;
 }
 

@@ -58,7 +58,7 @@ mr-import twice.xyz | mr-normals --from 0,0,1 | mr-export -q - -f ply-ascii | se
 
 echo 'surfaces'
 mr-make cube -n 8 | mr-normals | mr-export -q - -f ply-ascii | sed '1,/end_header/d' | sed -n 1,2p
-mr-make cube -n 8 | mr-normals --weights area --flip | mr-export -q - -f ply-ascii | sed '1,/end_header/d' | sed -n 1,2p
+mr-make cube -n 8 | mr-normals --flip | mr-export -q - -f ply-ascii | sed '1,/end_header/d' | sed -n 1,2p
 
 echo 'refusals'
 refused() {
@@ -70,10 +70,8 @@ refused --from 1,2 ball.mrs
 refused --from x,y,z ball.mrs
 refused --neighbours 2 ball.mrs
 refused --neighbours 129 ball.mrs
-refused --weights none cube.mrs
 refused --from 0,0,0 cube.mrs
 refused --neighbours 9 cube.mrs
-refused --weights area ball.mrs
 refused -l base ball.mrs
 printf '0 0 0\n1 1 1\n2 2 2\n3 3 3\n' >line.xyz
 mr-import line.xyz | refused

@@ -170,7 +170,7 @@ wrap(const job *j)
 static mr_status
 normals(const job *j)
 {
-	mr_normals_opts o = { .keep = j->way % 2, .by_area = j->way % 3 == 1 };
+	mr_normals_opts o = { .keep = j->way % 2 };
 
 	return mr_normals_frame(j->ctx, j->f, &o, NULL);
 }
