@@ -62,12 +62,6 @@ find_keys(const char *path, keys *k)
 		    (unsigned long long)s.st_ino, last_part(path));
 }
 
-static bool
-has(const mr_string_set *set, const char *key)
-{
-	return *key && mr_string_set_has(set, key);
-}
-
 static void
 add(mr_ctx *ctx, mr_string_set *set, const char *key)
 {
@@ -123,10 +117,10 @@ place_claim(mr_ctx *ctx, place_guard *g, const char *path, place_use use)
 		return mr_fail(ctx, MR_EUSAGE, "%s: that file is a stream, and would be lost", path);
 	if (there == OTHER && use == PLACE_STREAM)
 		return mr_fail(ctx, MR_EUSAGE, "%s: that file is no stream, and would be lost", path);
-	if (has(&g->written, k.there) || has(&g->written, k.place))
+	if (mr_string_set_has(&g->written, k.there) || mr_string_set_has(&g->written, k.place))
 		return mr_fail(ctx, MR_EUSAGE, "%s: this command writes that file%s", path,
 		    writes ? " already" : ", and would read it");
-	if (writes && has(&g->read, k.there))
+	if (writes && mr_string_set_has(&g->read, k.there))
 		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
 	if (writes)
 		add(ctx, &g->written, k.place);

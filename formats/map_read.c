@@ -203,11 +203,6 @@ mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts,
 {
 	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
 	mr_map_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(read_map(ctx, &done, path, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, read_map(ctx, &done, path, opts ? opts : &defaults, &r));
 }

@@ -293,14 +293,6 @@ put_texcoords(mr_ctx *ctx, mr_frame *f, const mr_atlas *a)
 	return mr_layer_put(ctx, f, "control", "corner_texcoord", uv, a->faces);
 }
 
-/* Control's limit normals, among which those of the texels are interpolated. */
-static mr_status
-put_normals(mr_ctx *ctx, mr_frame *f, const mapping *m)
-{
-	mr_frame_drop(f, "control", "corner_normal", 0);
-	return mr_layer_put(ctx, f, "control", "normal", m->domain.normal, m->control.nv);
-}
-
 static mr_status
 put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
 {
@@ -386,7 +378,9 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 	MR_TRY(write_files(ctx, &m, name, r));
 	lose_replaced(ctx, f);
 	MR_TRY(put_texcoords(ctx, f, &m.atlas));
-	MR_TRY(put_normals(ctx, f, &m));
+	/* Control's limit normals, among which those of the texels are interpolated. */
+	mr_frame_drop(f, "control", "corner_normal", 0);
+	MR_TRY(mr_layer_put(ctx, f, "control", "normal", m.domain.normal, m.control.nv));
 	MR_TRY(put_material(ctx, f, &m.atlas, name_of(name)));
 	MR_TRY(mr_map_put_range(ctx, f, m.low, m.high));
 	r->level = m.atlas.level;
@@ -402,11 +396,6 @@ mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts
 {
 	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
 	mr_map_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(write_map(ctx, &done, name, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, write_map(ctx, &done, name, opts ? opts : &defaults, &r));
 }

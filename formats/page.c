@@ -199,12 +199,6 @@ steps_of_places(mr_box box)
 }
 
 static bool
-is_height(const mr_column *c)
-{
-	return !strcmp(c->layer, "displacement") && !strcmp(c->name, "height");
-}
-
-static bool
 is_place(const mr_column *c)
 {
 	return !strcmp(c->name, "position") || (!strcmp(c->layer, "base") && !strcmp(c->name, "encoded"));
@@ -298,7 +292,8 @@ take_column(
 	if (is_place(&c))
 		MR_TRY(clamp_places(ctx, from, &c, &steps));
 	else
-		steps = steps_of_column(&c, is_height(&c) ? d->extent : 0);
+		steps = steps_of_column(
+		    &c, !strcmp(c.layer, "displacement") && !strcmp(c.name, "height") ? d->extent : 0);
 	if (!strcmp(c.name, "response"))
 		memcpy(steps.origin, centre, sizeof centre);
 	return steps.components ? put_steps(ctx, to, &c, &steps, notes) : mr_frame_pass(ctx, to, &c);

@@ -83,14 +83,6 @@ open_file(mr_ctx *ctx, const struct stat *old, bool link, mr_outfile *f)
 	return MR_OK;
 }
 
-/* A device, a pipe, or what a link leads to where nothing is yet. */
-static mr_status
-open_directly(mr_ctx *ctx, mr_outfile *f)
-{
-	f->fd = open(f->path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-	return f->fd < 0 ? failed(ctx, f->path, "cannot create") : MR_OK;
-}
-
 /* Another descriptor of standard output, where that is the file: who writes to it goes on there; else -1. */
 static int
 standard_output(const struct stat *file)
@@ -115,10 +107,11 @@ mr_outfile_open(mr_ctx *ctx, const char *path, mr_outfile *f)
 		return mr_fail(ctx, MR_EMEM, "%s: no memory for its name", path);
 	if (through >= 0)
 		new.fd = through;
-	else if (there ? !S_ISREG(st.st_mode) : link)
-		status = open_directly(ctx, &new);
-	else
+	else if (there ? S_ISREG(st.st_mode) : !link)
 		status = open_file(ctx, there ? &st : NULL, link, &new);
+	else if ((new.fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) < 0)
+		status = failed(ctx, path,
+		    "cannot create"); /* a device, a pipe, or what a link leads to where nothing is */
 	if (status < 0)
 		mr_outfile_drop(ctx, &new);
 	else

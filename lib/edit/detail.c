@@ -70,14 +70,6 @@ keep_offset(const encoder *e, size_t i, mr_place at)
 	e->height[i] = 0;
 }
 
-static void
-keep_height(const encoder *e, size_t i, const mr_foot *foot)
-{
-	e->face[i] = foot->at.face;
-	e->bary[i] = foot->at.bary;
-	e->height[i] = foot->height;
-}
-
 /*
  * A height is sound below the base's radius of curvature: beyond, the normals on the way meet, and any motion
  * of the base tears the heights apart.
@@ -247,7 +239,9 @@ keep_piece(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		if (e->sound[i]) {
-			keep_height(e, i, &e->foot[i]);
+			e->face[i] = e->foot[i].at.face;
+			e->bary[i] = e->foot[i].at.bary;
+			e->height[i] = e->foot[i].height;
 			t->height = fmax(t->height, fabs(e->height[i]));
 		} else {
 			keep_offset(e, i, (mr_place){ e->face[i], e->bary[i] });

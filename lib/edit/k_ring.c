@@ -42,15 +42,6 @@ number_vertices(const mr_mesh *m, const uint8_t *level, size_t rings, mr_patch *
 		}
 }
 
-/* True where the face belongs to the patch. */
-static bool
-in_patch(const mr_mesh *m, size_t f, const uint8_t *level, size_t rings)
-{
-	const uint32_t *v = m->t[f].v;
-
-	return level[v[0]] < rings || level[v[1]] < rings || level[v[2]] < rings;
-}
-
 void
 mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch)
 {
@@ -66,12 +57,13 @@ mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, si
 	t = MR_NEW(ctx, m->nf, mr_tri);
 	for (size_t i = 0; i < r.end[rings]; i++)
 		p[i] = m->p[r.vertex[i]];
-	for (size_t f = 0; f < m->nf; f++)
-		if (in_patch(m, f, level, rings)) {
-			r.own += f < own;
-			t[r.mesh.nf++] = (mr_tri){ { local[m->t[f].v[0]], local[m->t[f].v[1]],
-			    local[m->t[f].v[2]] } };
-		}
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		if (level[v[0]] >= rings && level[v[1]] >= rings && level[v[2]] >= rings)
+			continue;
+		r.own += f < own;
+		t[r.mesh.nf++] = (mr_tri){ { local[v[0]], local[v[1]], local[v[2]] } };
+	}
 	r.mesh.nv = r.end[rings];
 	r.mesh.p = p;
 	r.mesh.t = t;

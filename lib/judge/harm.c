@@ -118,14 +118,6 @@ turns_against(const mr_ring *r)
 	return is2 < most * most && sqrtf(is2) < sqrtf(then2[0] + then2[1] + then2[2]) - less * faces;
 }
 
-static void
-mark_turned(crowd *c)
-{
-	for (size_t v = 0; v < c->now.nv; v++)
-		if (turns_against(&c->m->ring[v]))
-			mark_cell(&c->turned, c->now.p[v]);
-}
-
 /* Cells that hold what was far apart, or sheets that came by each other, by vertices at equal strides. */
 
 typedef struct content {
@@ -433,7 +425,9 @@ mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 	c.now.p = m->now;
 	if (!(m->diagonal > 0))
 		return;
-	mark_turned(&c);
+	for (size_t v = 0; v < c.now.nv; v++)
+		if (turns_against(&m->ring[v]))
+			mark_cell(&c.turned, c.now.p[v]);
 	mark_gathered(ctx, &c);
 	if (c.turned.any || c.gathered.any || c.now.nf <= FEW)
 		look_at_crowd(ctx, &c, harm);

@@ -351,15 +351,6 @@ measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, d
 	bound_max(ctx, j, opts, scale, d);
 }
 
-static void
-measure_points(mr_ctx *ctx, job *j, mr_distance *d)
-{
-	sums s;
-
-	measure(ctx, j, j->a->nv, measure_vertices, &s);
-	*d = distance_of(&s);
-}
-
 /* From a to b, which have faces, of area or not.  alike: their faces have the same corners by number.  scale:
  * a length that bounds are rounded by. */
 static void
@@ -376,10 +367,13 @@ compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compar
 	j.bvh = bvh;
 	if (a->nf > 0 && !opts->vertices_only)
 		mr_vertices_used(ctx, a->t, a->nf, a->nv, &j.used, &count);
-	if (area > 0)
+	if (area > 0) {
 		measure_surface(ctx, &j, opts, area, scale, out);
-	else
-		measure_points(ctx, &j, out);
+	} else {
+		sums s;
+		measure(ctx, &j, a->nv, measure_vertices, &s);
+		*out = distance_of(&s);
+	}
 	mr_mark_release(ctx, mark);
 }
 

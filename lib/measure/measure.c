@@ -220,12 +220,6 @@ measure_edges(mr_ctx *ctx, job *j, mr_geometry *g)
 	mr_mark_release(ctx, mark);
 }
 
-static double
-angle_at(mr_v3 a, mr_v3 b, mr_v3 c)
-{
-	return mr_angle(mr_sub(b, a), mr_sub(c, a)) * (180 / MR_PI);
-}
-
 static void
 face_angles(void *arg, size_t begin, size_t end)
 {
@@ -237,7 +231,10 @@ face_angles(void *arg, size_t begin, size_t end)
 		out[0] = mr_norm2(mr_face_cross(j->m, f)) > 0 ? INFINITY : NAN;
 		out[1] = out[2] = 0;
 		for (int i = 0; i < 3; i++) {
-			double a = angle_at(j->m->p[v[i]], j->m->p[v[(i + 1) % 3]], j->m->p[v[(i + 2) % 3]]);
+			mr_v3 at = j->m->p[v[i]];
+			double a = mr_angle(mr_sub(j->m->p[v[(i + 1) % 3]], at),
+				       mr_sub(j->m->p[v[(i + 2) % 3]], at)) *
+			           (180 / MR_PI);
 			out[0] = a < out[0] ? a : out[0];
 			out[1] = a > out[1] ? a : out[1];
 			out[2] += fabs(a - 60);

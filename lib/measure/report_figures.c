@@ -198,15 +198,6 @@ distance_json(mr_text *t, const char *name, const mr_distance *d)
 	mr_text_add(t, "}");
 }
 
-static mr_distance
-relative(const mr_distance *d, double diagonal)
-{
-	mr_distance r = { d->min / diagonal, d->max / diagonal, d->max_bound / diagonal, d->mean / diagonal,
-		d->rms / diagonal, d->samples };
-
-	return r;
-}
-
 static void
 comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const char *b, mr_text *t)
 {
@@ -225,7 +216,9 @@ comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const 
 	for (int i = 0; i < 3; i++)
 		distance_json(t, names[0][i], d[i]);
 	for (int i = 0; i < 3; i++) {
-		mr_distance x = relative(d[i], c->diagonal);
+		double unit = c->diagonal;
+		mr_distance x = { d[i]->min / unit, d[i]->max / unit, d[i]->max_bound / unit,
+			d[i]->mean / unit, d[i]->rms / unit, d[i]->samples };
 		distance_json(t, names[1][i], &x);
 	}
 	mr_text_add(t, ",\"corresponds\":%s", c->corresponds ? "true" : "false");

@@ -97,14 +97,6 @@ add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 	return MR_OK;
 }
 
-static void
-remove_vertex(mr_dyn *d, uint32_t v)
-{
-	d->kind[v] = MR_DEAD;
-	d->out[v] = d->free_v;
-	d->free_v = v;
-}
-
 /* Puts h on a curve, or with MR_NONE on none. */
 static void
 set_curve(mr_dyn *d, uint32_t h, uint32_t curve)
@@ -314,7 +306,9 @@ mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p)
 		close_face(d, g);
 	keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
 	d->p[b] = p;
-	remove_vertex(d, a);
+	d->kind[a] = MR_DEAD;
+	d->out[a] = d->free_v;
+	d->free_v = a;
 }
 
 bool

@@ -252,21 +252,13 @@ mr_layer_drop_kind(mr_frame *f, const char *layer, mr_attribute kind)
 			mr_frame_drop(f, layer, c->name, 0);
 }
 
-/* What refers to the layer's triangles. */
-static void
-drop_references(mr_frame *f, const char *layer)
-{
-	for (const mr_column_info *c = mr_columns; c->name; c++)
-		if (c->refers && !strcmp(c->refers, layer))
-			mr_frame_drop(f, c->layer, c->name, 0);
-}
-
 /* own: whether columns of the layer itself go too, but for a file's own of such a name. */
 static void
 drop_dependents(mr_frame *f, const char *layer, mr_change change, bool own)
 {
-	if (change == MR_RECONNECTED)
-		drop_references(f, layer);
+	for (const mr_column_info *c = mr_columns; change == MR_RECONNECTED && c->name; c++)
+		if (c->refers && !strcmp(c->refers, layer))
+			mr_frame_drop(f, c->layer, c->name, 0);
 	if (own && change != MR_RESELECTED)
 		mr_layer_drop_kind(f, layer, MR_SAMPLED);
 	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++) {

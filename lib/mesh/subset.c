@@ -72,14 +72,6 @@ mr_subset_find(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *keep, mr_
 	return MR_OK;
 }
 
-static void
-renumber(mr_tri *t, size_t n, const uint32_t *number)
-{
-	for (size_t f = 0; f < n; f++)
-		for (int k = 0; k < 3; k++)
-			t[f].v[k] = number[t[f].v[k]];
-}
-
 mr_status
 mr_layer_gather(mr_ctx *ctx, mr_frame *f, const char *layer, char element, const uint32_t *of, size_t n)
 {
@@ -107,7 +99,8 @@ renumber_faces(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 
 	MR_TRY(mr_layer_get_rows(ctx, f, layer, "triangles", s->nf, &t));
 	memcpy(own, t, s->nf * sizeof *own);
-	renumber(own, s->nf, s->number);
+	for (size_t i = 0; i < 3 * s->nf; i++)
+		own[i / 3].v[i % 3] = s->number[own[i / 3].v[i % 3]];
 	return mr_frame_put(ctx, f, layer, "triangles", (mr_shape){ 'f', 'u', 3 }, own, s->nf);
 }
 

@@ -238,21 +238,14 @@ misses(double excess)
 	return fabs(excess - 1) > 0.05;
 }
 
-/* The length of edges, before a number that is wanted is seen to. */
-static double
-uniform_length(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o)
-{
-	double given = o->length * (o->length_relative ? mr_mesh_diagonal(m) : 1);
-
-	return given > 0 ? given : o->ratio * mr_mesh_edge_scale(ctx, m);
-}
-
 static mr_status
 set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 {
 	double adaptive = r->o->adaptive * (r->o->adaptive_relative ? mr_mesh_diagonal(m) : 1),
-	       uniform = uniform_length(r->ctx, m, r->o);
+	       uniform = r->o->length * (r->o->length_relative ? mr_mesh_diagonal(m) : 1);
 
+	if (!(uniform > 0))
+		uniform = r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 	if (!(mr_mesh_area(r->ctx, m) > 0))
 		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));

@@ -101,20 +101,6 @@ take_column(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, const char *name, mr_pan
 	return MR_OK;
 }
 
-static void
-push_panel(mr_ctx *keep, mr_gallery *g, const mr_panel *p)
-{
-	MR_RESERVE(keep, g->panel, g->panels, 1, &g->panel_room);
-	g->panel[g->panels++] = *p;
-}
-
-static void
-push_frame(mr_ctx *keep, mr_gallery *g, const mr_shown *f)
-{
-	MR_RESERVE(keep, g->frame, g->frames, 1, &g->frame_room);
-	g->frame[g->frames++] = *f;
-}
-
 static mr_status
 add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char *layer,
     const mr_render_opts *opts, bool *colored)
@@ -125,7 +111,8 @@ add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char 
 	MR_TRY(take_normals(ctx, keep, frame, &p));
 	if (opts->color)
 		MR_TRY(take_column(ctx, keep, frame, opts->color, &p, colored));
-	push_panel(keep, g, &p);
+	MR_RESERVE(keep, g->panel, g->panels, 1, &g->panel_room);
+	g->panel[g->panels++] = p;
 	return MR_OK;
 }
 
@@ -166,9 +153,11 @@ mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const 
 	if (status == MR_OK && opts->color && !colored)
 		status = mr_fail(ctx, MR_EMISSING, "no layer that is drawn has a column %s", opts->color);
 	shown.count = g->panels - shown.first;
-	if (status == MR_OK)
-		push_frame(keep, g, &shown);
-	if (status != MR_OK)
+	if (status != MR_OK) {
 		g->panels = shown.first;
-	return status;
+		return status;
+	}
+	MR_RESERVE(keep, g->frame, g->frames, 1, &g->frame_room);
+	g->frame[g->frames++] = shown;
+	return MR_OK;
 }

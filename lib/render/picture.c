@@ -228,13 +228,6 @@ mr_shot_draw(
 	return MR_OK;
 }
 
-/* The number of columns that makes cells of w by h a sheet of about 3 by 2. */
-static size_t
-choose_columns(size_t cells, double w, double h)
-{
-	return (size_t)fmax(1, rint(sqrt(1.5 * (double)cells * h / w)));
-}
-
 /* How a sheet is divided into cells of one frame each. */
 typedef struct cells {
 	size_t columns, rows, width, height; /* the last two in pixels */
@@ -248,8 +241,9 @@ divide_sheet(const mr_gallery *g, const mr_render_opts *o)
 	for (size_t i = 0; i < g->frames; i++)
 		if (g->frame[i].count * o->width > s.width)
 			s.width = g->frame[i].count * o->width;
-	if (s.columns == 0)
-		s.columns = choose_columns(g->frames, (double)s.width, (double)s.height);
+	if (s.columns == 0) /* a sheet of about 3 by 2 */
+		s.columns = (size_t)fmax(
+		    1, rint(sqrt(1.5 * (double)(g->frames * s.height) / (double)s.width)));
 	if (s.columns > g->frames)
 		s.columns = g->frames;
 	/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) a sheet has a frame, so a column */

@@ -77,13 +77,6 @@ add(int n, double *e, int m, const double *f)
 	return n;
 }
 
-static void
-negate(int n, double *e)
-{
-	for (int i = 0; i < n; i++)
-		e[i] = -e[i];
-}
-
 /* h = e b: at most 2 n terms */
 static int
 scale(int n, const double *e, double b, double *h)
@@ -138,7 +131,8 @@ minor(const difference *a, const difference *b, const difference *c, const diffe
 	double right[PRODUCT];
 	int n = multiply(a->n, a->e, d->n, d->e, h), m = multiply(b->n, b->e, c->n, c->e, right);
 
-	negate(m, right);
+	for (int i = 0; i < m; i++)
+		right[i] = -right[i];
 	return add(n, h, m, right);
 }
 

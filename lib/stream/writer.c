@@ -125,13 +125,6 @@ emit_record(mr_ctx *ctx, mr_writer *w, const mr_record *head, const void *payloa
 }
 
 static mr_status
-emit_stored(mr_ctx *ctx, mr_writer *w, const mr_stored *s)
-{
-	MR_TRY(emit(ctx, w, s->header, MR_HEADER));
-	return emit(ctx, w, s->payload, (size_t)mr_record_padded(s->head.stored));
-}
-
-static mr_status
 emit_structure(mr_ctx *ctx, mr_writer *w, mr_kind kind, const char *layer, const char *text)
 {
 	mr_record r = mr_record_of(kind, layer, strlen(text));
@@ -263,11 +256,15 @@ emit_frame(mr_ctx *ctx, mr_writer *w, const mr_frame *f, bool key, const plan *p
 	MR_TRY(emit_structure(ctx, w, MR_FRAME, "", text));
 	if (!key)
 		MR_TRY(emit_drops(ctx, w, survives));
-	for (size_t i = 0; i < f->count; i++)
-		if (plans[i].send && plans[i].stored)
-			MR_TRY(emit_stored(ctx, w, plans[i].stored));
-		else if (plans[i].send)
+	for (size_t i = 0; i < f->count; i++) {
+		const mr_stored *s = plans[i].stored;
+		if (plans[i].send && s) {
+			MR_TRY(emit(ctx, w, s->header, MR_HEADER));
+			MR_TRY(emit(ctx, w, s->payload, (size_t)mr_record_padded(s->head.stored)));
+		} else if (plans[i].send) {
 			MR_TRY(emit_record(ctx, w, &plans[i].head, plans[i].payload));
+		}
+	}
 	MR_TRY(emit_structure(ctx, w, MR_ENDFRAME, "", ""));
 	return flush_with(ctx, w, NULL, 0);
 }

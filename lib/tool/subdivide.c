@@ -97,14 +97,6 @@ look_for_folds(mr_ctx *ctx, const mr_refined *r)
 }
 
 static mr_status
-divide(mr_ctx *ctx, const mr_mesh *m, const mr_subdivide_opts *o, mr_refined *r)
-{
-	double unit = o->longest_relative ? mr_mesh_diagonal(m) : 1;
-
-	return mr_prefix(ctx, mr_divide_longest(ctx, m, o->longest * unit, r), "%s", m->name);
-}
-
-static mr_status
 subdivide_frame(
     mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *o, mr_cache *cache, mr_subdivide_result *result)
 {
@@ -122,7 +114,10 @@ subdivide_frame(
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	seconds = mr_seconds();
 	if (o->longest > 0)
-		MR_TRY(divide(ctx, &m, o, &r));
+		MR_TRY(mr_prefix(ctx,
+		    mr_divide_longest(
+			ctx, &m, o->longest * (o->longest_relative ? mr_mesh_diagonal(&m) : 1), &r),
+		    "%s", m.name));
 	else
 		MR_TRY(subdivide(ctx, f, &m, o, cache, &r, &limit));
 	seconds = mr_seconds() - seconds;
