@@ -234,14 +234,6 @@ show_progress(void *user, const char *what, double share)
 
 /* The command line */
 
-static const char *
-base_name(const char *path)
-{
-	const char *slash = strrchr(path, '/');
-
-	return slash ? slash + 1 : path;
-}
-
 static void
 print_help(const cmd *c, const cmd_opt *standard)
 {
@@ -869,7 +861,7 @@ int
 main(int argc, char **argv)
 {
 	struct cmd_state state = { .out = -1 };
-	cmd c = { .tool = &cmd_this, .name = base_name(argv[0]), .state = &state };
+	cmd c = { .tool = &cmd_this, .name = mr_file_name(argv[0]), .state = &state };
 	int code = EXIT_DATA;
 
 	fill_closed();

@@ -26,14 +26,6 @@ folder_of(const char *name, struct stat *s)
 	return good;
 }
 
-static const char *
-last_part(const char *name)
-{
-	const char *slash = strrchr(name, '/');
-
-	return slash ? slash + 1 : name;
-}
-
 bool
 place_is(int fd, const char *name)
 {
@@ -59,7 +51,7 @@ find_keys(const char *path, keys *k)
 		    (unsigned long long)s.st_ino);
 	if (folder_of(path, &s))
 		snprintf(k->place, sizeof k->place, "%llu:%llu/%s", (unsigned long long)s.st_dev,
-		    (unsigned long long)s.st_ino, last_part(path));
+		    (unsigned long long)s.st_ino, mr_file_name(path));
 }
 
 static void

@@ -44,16 +44,6 @@ mr_tell(mr_ctx *ctx, mr_finding_kind kind, size_t count, const char *format, ...
 
 /* ---- names ---- */
 
-/* The file's name without folder, and in *bytes its length without .gz. */
-static const char *
-file_of(const char *path, size_t *bytes)
-{
-	const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
-
-	*bytes = strlen(file) - (mr_suffix_gz(file) ? 3 : 0);
-	return file;
-}
-
 static const mr_file_format *
 by_name(const char *name)
 {
@@ -118,8 +108,8 @@ mr_format_check(mr_ctx *ctx, const char *path, const char *format, bool writable
 const char *
 mr_format_stem(mr_ctx *ctx, const char *path)
 {
-	size_t bytes;
-	const char *file = file_of(path, &bytes);
+	const char *file = mr_file_name(path);
+	size_t bytes = strlen(file) - (mr_suffix_gz(file) ? 3 : 0);
 	char *name;
 
 	if (!strcmp(path, "-"))

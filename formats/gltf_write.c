@@ -5,6 +5,7 @@
 #include "formats/image.h"
 #include "formats/materials.h"
 #include "formats/model.h"
+#include "formats/suffix.h"
 #include "mesh/name_lists.h"
 
 enum { POINTS = 0, FRAMES_A_SECOND = 24 };
@@ -250,7 +251,6 @@ image_type(const mr_file_bytes *b)
 static mr_status
 put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 {
-	const char *slash = strrchr(file, '/');
 	size_t view = 0, image;
 	char *to = NULL;
 
@@ -259,7 +259,7 @@ put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 	memcpy(to, b->data, b->size);
 	image = push(w, "images",
 	    json_pack("{s:I, s:s, s:s}", "bufferView", number(view), "mimeType", image_type(b), "name",
-		slash ? slash + 1 : file));
+		mr_file_name(file)));
 	*texture = push(w, "textures", json_pack("{s:I}", "source", number(image)));
 	return MR_OK;
 }

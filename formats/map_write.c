@@ -7,6 +7,7 @@
 #include "formats/bytes.h"
 #include "formats/map.h"
 #include "formats/scan.h"
+#include "formats/suffix.h"
 #include "subdivide/atlas.h"
 
 #include <sys/stat.h>
@@ -221,15 +222,6 @@ write_normals(mr_ctx *ctx, mapping *m, const char *path)
 
 /* ---- what names the pictures ---- */
 
-/* The last part of a path. */
-static const char *
-name_of(const char *path)
-{
-	const char *slash = strrchr(path, '/');
-
-	return slash ? slash + 1 : path;
-}
-
 /* What the file of a material begins with, but for what the heights are.  NULL: no memory. */
 static const char *
 material_begins(mr_ctx *ctx, const char *name)
@@ -315,7 +307,7 @@ check_name(mr_ctx *ctx, const char *name)
 	for (const char *c = name; *c; c++)
 		if ((unsigned char)*c < ' ')
 			return mr_fail(ctx, MR_EUSAGE, "the name of a map has byte %d", *c);
-	return *name_of(name) ? MR_OK : mr_fail(ctx, MR_EUSAGE, "%s names no file", *name ? name : "''");
+	return *mr_file_name(name) ? MR_OK : mr_fail(ctx, MR_EUSAGE, "%s names no file", *name ? name : "''");
 }
 
 static mr_status
@@ -355,12 +347,12 @@ write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 	const char *normals = mr_format(ctx, "%s-normal.png", name),
 		   *material = mr_format(ctx, "%s.mtl", name);
 
-	MR_TRY(check_place(ctx, name_of(name), material));
+	MR_TRY(check_place(ctx, mr_file_name(name), material));
 	MR_TRY(write_heights(ctx, m, heights));
 	found->clipped = count_rows(m);
 	MR_TRY(write_normals(ctx, m, normals));
 	found->turned = count_rows(m);
-	MR_TRY(write_material(ctx, m, name_of(name), material));
+	MR_TRY(write_material(ctx, m, mr_file_name(name), material));
 	mr_tell(ctx, MR_ROUNDED, found->clipped, "heights of texels");
 	return MR_OK;
 }
@@ -381,7 +373,7 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 	/* Control's limit normals, among which those of the texels are interpolated. */
 	mr_frame_drop(f, "control", "corner_normal", 0);
 	MR_TRY(mr_layer_put(ctx, f, "control", "normal", m.domain.normal, m.control.nv));
-	MR_TRY(put_material(ctx, f, &m.atlas, name_of(name)));
+	MR_TRY(put_material(ctx, f, &m.atlas, mr_file_name(name)));
 	MR_TRY(mr_map_put_range(ctx, f, m.low, m.high));
 	r->level = m.atlas.level;
 	r->width = m.atlas.width;

@@ -27,6 +27,14 @@ static const struct {
 	{ ".pwn", "pwn" },
 };
 
+const char *
+mr_file_name(const char *path)
+{
+	const char *slash = strrchr(path, '/');
+
+	return slash ? slash + 1 : path;
+}
+
 bool
 mr_suffix_gz(const char *path)
 {

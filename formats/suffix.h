@@ -1,8 +1,12 @@
-/* suffix.h -- what the end of a file's name says of its format.  Layer rule: formats; needs no reader. */
+/* suffix.h -- what the end of a path says: a file's name and its format.  Layer rule: formats; needs no
+ * reader. */
 #ifndef MR_SUFFIX_H
 #define MR_SUFFIX_H
 
 #include <stdbool.h>
+
+/* The last part of a path: empty where that ends in a slash. */
+const char *mr_file_name(const char *path);
 
 /* The name of the format, whatever the case and whether .gz follows or not; NULL: of none. */
 const char *mr_suffix_format(const char *path);

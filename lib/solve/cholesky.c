@@ -67,22 +67,16 @@ analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const int *part)
 	return check(ctx, c);
 }
 
-/* The first pivot that is not positive, by the matrix's own order. */
-static mr_status
-not_positive(mr_ctx *ctx, const cholmod_factor *f, const uint32_t *vertex)
-{
-	size_t row = (size_t)((const int *)f->Perm)[f->minor];
-
-	return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite (at %s %zu)",
-	    vertex ? "vertex" : "row", vertex ? vertex[row] : row);
-}
-
 static mr_status
 factorize(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const uint32_t *vertex)
 {
 	cholmod_factorize(a, c->factor, &c->common);
-	if (c->common.status == CHOLMOD_NOT_POSDEF && c->factor->minor < c->factor->n)
-		return not_positive(ctx, c->factor, vertex);
+	if (c->common.status == CHOLMOD_NOT_POSDEF && c->factor->minor < c->factor->n) {
+		/* the first pivot that is not positive, by the matrix's own order */
+		size_t row = (size_t)((const int *)c->factor->Perm)[c->factor->minor];
+		return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite (at %s %zu)",
+		    vertex ? "vertex" : "row", vertex ? vertex[row] : row);
+	}
 	return check(ctx, c); /* at once: the next call resets the status */
 }
 
