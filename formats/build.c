@@ -348,19 +348,6 @@ is_absent(const double *x, size_t width)
 	return isnan(x[0] + x[1]) || (width == 3 && x[0] == 0 && x[1] == 0 && x[2] == 0);
 }
 
-static size_t
-hash_of(const double *value, size_t width)
-{
-	uint64_t bits[3], h = 0;
-
-	memcpy(bits, value, width * sizeof *bits);
-	for (size_t k = 0; k < width; k++) {
-		h = (h ^ bits[k]) * 0x9e3779b97f4a7c15u;
-		h ^= h >> 32;
-	}
-	return (size_t)h;
-}
-
 void
 mr_number_rows(
     mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count)
@@ -373,7 +360,7 @@ mr_number_rows(
 		mask *= 2;
 	slot = MR_NEW_ZERO(ctx, mask--, uint32_t);
 	for (size_t i = 0; i < n; i++) {
-		size_t at = hash_of(x + width * i, width) & mask;
+		size_t at = mr_hash_reals(x + width * i, width) & mask;
 		number[i] = MR_NONE;
 		if (is_absent(x + width * i, width))
 			continue;

@@ -111,39 +111,24 @@ put_mark(mr_sink *s, marks *k, size_t f)
 }
 
 static void
-put_smoothing(mr_sink *s, marks *k, size_t f)
-{
-	if (k->said && k->of[f] == k->last)
-		return;
-	k->said = true;
-	k->last = k->of[f];
-	if (k->last)
-		mr_print(s, "s %u\n", (unsigned)k->last);
-	else
-		mr_print(s, "s off\n");
-}
-
-static void
 put_faces(mr_sink *s, const mr_model *m, const values x[2])
 {
 	marks all[] = { { .word = "o", .what = "object", .of = m->object },
 		{ .word = "g", .what = "group", .of = m->group },
-		{ .word = "usemtl", .what = "material", .of = m->material } };
-	marks smoothing = { .of = m->smoothing };
-	const mr_lines names[] = { m->objects, m->groups, m->materials };
+		{ .word = "usemtl", .what = "material", .of = m->material },
+		{ .word = "s", .what = "", .of = m->smoothing } };
+	const mr_lines names[] = { m->objects, m->groups, m->materials, { "off", 3 } };
 	mr_polygons faces;
 
-	for (size_t k = 0; k < 3; k++)
+	for (size_t k = 0; k < 4; k++)
 		if (all[k].of)
 			mr_line_starts(s->ctx, names[k].text, names[k].bytes, &all[k].start, &all[k].names);
 	mr_faces_of(s, m, &faces);
 	for (size_t i = 0; i < faces.count; i++) {
 		size_t f = mr_polygon_corner(&faces, mr_polygon_begin(&faces, i)) / 3;
-		for (size_t k = 0; k < 3; k++)
+		for (size_t k = 0; k < 4; k++)
 			if (all[k].of)
 				put_mark(s, &all[k], f);
-		if (smoothing.of)
-			put_smoothing(s, &smoothing, f);
 		mr_put(s, "f", 1);
 		for (size_t c = mr_polygon_begin(&faces, i); c < mr_polygon_begin(&faces, i + 1); c++)
 			put_corner(s, m, x, mr_polygon_corner(&faces, c));

@@ -277,4 +277,18 @@ mr_box_tolerance(mr_box b, double share)
 	return fmax(share * mr_box_diagonal(b), operations * mr_box_grain(b));
 }
 
+/* A hash of the bits of n numbers. */
+static inline size_t
+mr_hash_reals(const double *x, size_t n)
+{
+	uint64_t bits, h = 0;
+
+	for (size_t k = 0; k < n; k++) {
+		memcpy(&bits, x + k, sizeof bits);
+		h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+		h ^= h >> 32;
+	}
+	return (size_t)h;
+}
+
 #endif

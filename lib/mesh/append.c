@@ -53,17 +53,12 @@ all_have(const joined *j)
 static void
 add_lines(mr_ctx *ctx, mr_name_table *all, const char *text, size_t bytes, uint32_t **number, size_t *count)
 {
-	const char *end = text + bytes;
-	size_t room = 0;
+	const char **start;
 
-	*number = NULL;
-	for (*count = 0; text <= end; (*count)++) {
-		const char *stop = memchr(text, '\n', (size_t)(end - text));
-		size_t n = (size_t)((stop ? stop : end) - text);
-		MR_RESERVE(ctx, *number, *count, 1, &room);
-		(*number)[*count] = mr_name_number(ctx, all, text, n);
-		text += n + 1;
-	}
+	mr_line_starts(ctx, text, bytes, &start, count);
+	*number = MR_NEW(ctx, *count, uint32_t);
+	for (size_t i = 0; i < *count; i++)
+		(*number)[i] = mr_name_number(ctx, all, start[i], (size_t)(start[i + 1] - start[i]) - 1);
 }
 
 /* Texts of no row: the lines of all, each once; of no layer each ends with a newline. */

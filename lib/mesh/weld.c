@@ -22,24 +22,11 @@ cell_of(const weld *w, mr_v3 a)
 	return mr_vec(a.x + 0.0, a.y + 0.0, a.z + 0.0);
 }
 
-static size_t
-slot_of(const weld *w, mr_v3 cell)
-{
-	uint64_t bits[3], h = 0;
-
-	memcpy(bits, &cell, sizeof bits);
-	for (int k = 0; k < 3; k++) {
-		h = (h ^ bits[k]) * 0x9e3779b97f4a7c15u;
-		h ^= h >> 32;
-	}
-	return (size_t)h & w->mask;
-}
-
 /* The lowest in the cell within eps of `a`, or `best` where that is lower. */
 static uint32_t
 lowest_in(const weld *w, mr_v3 cell, mr_v3 a, uint32_t best)
 {
-	for (uint32_t i = w->slot[slot_of(w, cell)]; i; i = w->stand[i - 1].older)
+	for (uint32_t i = w->slot[mr_hash_reals(&cell.x, 3) & w->mask]; i; i = w->stand[i - 1].older)
 		if (i - 1 < best && mr_norm2(mr_sub(w->stand[i - 1].p, a)) <= w->eps * w->eps)
 			best = i - 1;
 	return best;
@@ -64,7 +51,8 @@ find(const weld *w, mr_v3 a, mr_v3 cell)
 static void
 put_in_slot(weld *w, uint32_t number)
 {
-	uint32_t *slot = &w->slot[slot_of(w, cell_of(w, w->stand[number].p))];
+	mr_v3 cell = cell_of(w, w->stand[number].p);
+	uint32_t *slot = &w->slot[mr_hash_reals(&cell.x, 3) & w->mask];
 
 	w->stand[number].older = *slot;
 	*slot = number + 1;

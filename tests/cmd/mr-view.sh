@@ -26,7 +26,7 @@ mr-view -l base -i edit.mrs base.html && stream_of base.html >base.back && colum
 echo '-- deltas stay deltas'
 mr-pose -H 1 --translate 0.1,0,0 --frames 2 edit.mrs | mr-decode >film.mrs
 mr-view --stats stats -l mesh film.html <film.mrs && stream_of film.html >film.back && columns film.back
-sed -E 's/"(seconds|peak_bytes)":[^,}]*,?//g' stats
+sed -E 's/"(seconds|peak_bytes)":[^,}]*,?//g; s/,}/}/' stats
 
 echo '-- positions within 24 bits of the extent, other numbers of the largest, wherever the model is'
 cat >near.py <<'X'
