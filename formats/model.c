@@ -405,7 +405,7 @@ mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 		return MR_OK;
 	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, "mesh", &mesh));
 	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &now));
-	if (mesh.nv == now.nv && mesh.nf == now.nf && !memcmp(mesh.t, now.t, now.nf * sizeof *now.t)) {
+	if (mr_same_triangles(&mesh, &now)) {
 		mr_frame_copy(ctx, f, &own);
 		MR_TRY(borrow(ctx, &own, layer, &mesh, &now));
 		return mr_model_get(ctx, &own, layer, m);

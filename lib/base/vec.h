@@ -277,6 +277,12 @@ mr_box_tolerance(mr_box b, double share)
 	return fmax(share * mr_box_diagonal(b), operations * mr_box_grain(b));
 }
 
+static inline double
+mr_square(double x)
+{
+	return x * x;
+}
+
 /* A hash of the bits of n numbers. */
 static inline size_t
 mr_hash_reals(const double *x, size_t n)

@@ -216,15 +216,6 @@ worst_vertex(const crowd *c, const uint32_t *harm)
 	return m->nf && harm[worst] ? c->vertex[m->t[worst].v[0]] : MR_NONE;
 }
 
-/* Whether the faces at half-edges h and g of an edge are folded. */
-static bool
-folded(const mr_mesh *m, uint32_t h, uint32_t g)
-{
-	mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
-
-	return mr_folds(mr_same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
-}
-
 static void
 count_folds(mr_ctx *ctx, const crowd *c, uint32_t *harm, size_t *folds)
 {
@@ -234,8 +225,8 @@ count_folds(mr_ctx *ctx, const crowd *c, uint32_t *harm, size_t *folds)
 	mr_edges_build(ctx, &c->now, &edges);
 	for (size_t e = 0; e < edges.count; e++) {
 		const uint32_t *h = &edges.he[edges.start[e]];
-		bool now = mr_edge_faces(&edges, e) == 2 && folded(&c->now, h[0], h[1]);
-		bool then = mr_edge_faces(&edges, e) == 2 && folded(&c->then, h[0], h[1]);
+		bool now = mr_edge_faces(&edges, e) == 2 && mr_is_fold(&c->now, h[0], h[1]);
+		bool then = mr_edge_faces(&edges, e) == 2 && mr_is_fold(&c->then, h[0], h[1]);
 		came += now && !then;
 		went += then && !now;
 		for (int i = 0; now && !then && i < 2; i++)

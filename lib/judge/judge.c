@@ -15,13 +15,6 @@ surface_of(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 	return mr_layer_mesh_of_any_size(ctx, f, layer, m);
 }
 
-static bool
-same_triangles(const mr_mesh *a, const mr_mesh *b)
-{
-	return a->nv == b->nv && a->nf == b->nf &&
-	       (a->t == b->t || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
-}
-
 /* The largest distance that a vertex went. */
 static double
 farthest(const mr_v3 *then, const mr_v3 *now, size_t n)
@@ -152,7 +145,7 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 		return MR_OK;
 	MR_TRY(mr_domain_level(ctx, &control, mesh->nv, &n));
 	MR_TRY(displaced_then(ctx, before, n, &control, &d, &then));
-	if (d.m.nv != mesh->nv || !same_triangles(&d.m, mesh))
+	if (d.m.nv != mesh->nv || !mr_same_triangles(&d.m, mesh))
 		return MR_OK;
 	surface = d.m;
 	surface.name = mesh->name;
@@ -198,7 +191,7 @@ judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer,
 		return judge_on_control(ctx, before, after, &now);
 	if (!then.t || (then.p == now.p && then.t == now.t))
 		return MR_OK;
-	if (!same_triangles(&then, &now)) {
+	if (!mr_same_triangles(&then, &now)) {
 		mr_judge_remade(ctx, &then, &now);
 		return MR_OK;
 	}

@@ -401,12 +401,6 @@ with_faces(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out)
 	return MR_OK;
 }
 
-static bool
-corresponds(const mr_mesh *a, const mr_mesh *b)
-{
-	return a->nv == b->nv && a->nf == b->nf && (a->nf == 0 || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
-}
-
 static void
 measure_deviation(const mr_mesh *a, const mr_mesh *b, mr_deviation *d)
 {
@@ -463,7 +457,7 @@ static mr_status
 compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *o, mr_comparison *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_comparison c = { .corresponds = corresponds(a, b), .diagonal = mr_mesh_diagonal(b) };
+	mr_comparison c = { .corresponds = mr_same_triangles(a, b), .diagonal = mr_mesh_diagonal(b) };
 	double scale = fmax(mr_mesh_diagonal(a), c.diagonal);
 	mr_mesh fa, fb;
 

@@ -104,15 +104,6 @@ count_fans_and_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_ce
 	mr_mark_release(ctx, mark);
 }
 
-/* The two faces of an edge, as if oriented alike. */
-static bool
-folded(const mr_mesh *m, uint32_t h, uint32_t g)
-{
-	mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
-
-	return mr_folds(mr_same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
-}
-
 static void
 count_edges(const mr_mesh *m, const mr_edges *edges, mr_census *c)
 {
@@ -123,7 +114,7 @@ count_edges(const mr_mesh *m, const mr_edges *edges, mr_census *c)
 		c->boundary_edges += n == 1;
 		c->nonmanifold_edges += n > 2;
 		c->inconsistent_edges += n == 2 && mr_same_direction(m, h[0], h[1]);
-		c->folded_edges += n == 2 && folded(m, h[0], h[1]);
+		c->folded_edges += n == 2 && mr_is_fold(m, h[0], h[1]);
 	}
 }
 

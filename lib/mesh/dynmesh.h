@@ -100,6 +100,15 @@ mr_dyn_cross(const mr_dyn *d, const mr_v3 *p, size_t f)
 	return mr_cross(mr_sub(p[d->v[3 * f + 1]], a), mr_sub(p[d->v[3 * f + 2]], a));
 }
 
+/* Whether the faces at h are folded by more than the angle of that cosine; not on the boundary. */
+static inline bool
+mr_dyn_folds(const mr_dyn *d, uint32_t h, double cosine)
+{
+	uint32_t g = d->twin[h];
+
+	return g != MR_NONE && mr_folds(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3), cosine);
+}
+
 /*
  * Shape of a triangle, height over longest edge: 0.87 for an equilateral one, 0 for a segment.  Below
  * MR_NEEDLE its normal says little and no operation may leave it worse.

@@ -6,7 +6,7 @@
 #ifndef MR_MESH_EDGES_H
 #define MR_MESH_EDGES_H
 
-#include "mesh/mesh.h"
+#include "mesh/fold.h"
 
 /*
  * Edge e has the half-edges he[start[e]] to he[start[e + 1]], by index; edges are in the
@@ -27,6 +27,15 @@ static inline bool
 mr_same_direction(const mr_mesh *m, uint32_t h, uint32_t g)
 {
 	return mr_he_from(m, h) == mr_he_from(m, g);
+}
+
+/* Whether the two faces of an edge, however they are oriented, are folded there. */
+static inline bool
+mr_is_fold(const mr_mesh *m, uint32_t h, uint32_t g)
+{
+	mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
+
+	return mr_folds(mr_same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
 }
 
 /* Whether the surface encloses a volume: every edge has as many faces one way as the other. */

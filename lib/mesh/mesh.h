@@ -162,6 +162,14 @@ mr_mesh_place(const mr_mesh *m, size_t i)
 	return m->p[m->nf ? m->t[i / 3].v[i % 3] : i];
 }
 
+/* Whether each face has the same corners by number. */
+static inline bool
+mr_same_triangles(const mr_mesh *a, const mr_mesh *b)
+{
+	return a->nv == b->nv && a->nf == b->nf &&
+	       (a->nf == 0 || a->t == b->t || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
+}
+
 /* The bounding box of its places. */
 mr_box mr_mesh_box(const mr_mesh *m);
 

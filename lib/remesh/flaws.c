@@ -23,14 +23,6 @@ typedef struct spot {
 } spot;
 
 static bool
-is_folded(const mr_dyn *d, uint32_t h)
-{
-	uint32_t g = d->twin[h];
-
-	return g != MR_NONE && mr_folds(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3), MR_FOLD);
-}
-
-static bool
 is_flipped(const mr_dyn *d, const mr_remesh_source *s, uint32_t f)
 {
 	return mr_remesh_against(s, d, d->at, &d->v[3 * f], mr_dyn_cross(d, d->p, f));
@@ -46,7 +38,7 @@ mr_flaws_count(const mr_dyn *d, const mr_remesh_source *s)
 			continue;
 		n.flipped += is_flipped(d, s, f);
 		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
-			n.folded += h < d->twin[h] && is_folded(d, h);
+			n.folded += h < d->twin[h] && mr_dyn_folds(d, h, MR_FOLD);
 	}
 	return n;
 }
@@ -56,8 +48,9 @@ is_flawed(const mender *w, uint32_t f)
 {
 	const mr_dyn *d = w->d;
 
-	return !mr_dyn_face_dead(d, f) && (is_folded(d, 3 * f) || is_folded(d, 3 * f + 1) ||
-					      is_folded(d, 3 * f + 2) || is_flipped(d, w->s, f));
+	return !mr_dyn_face_dead(d, f) &&
+	       (mr_dyn_folds(d, 3 * f, MR_FOLD) || mr_dyn_folds(d, 3 * f + 1, MR_FOLD) ||
+		   mr_dyn_folds(d, 3 * f + 2, MR_FOLD) || is_flipped(d, w->s, f));
 }
 
 /* The flipped faces around v and the folded edges of all these. */
@@ -69,7 +62,8 @@ flaws_around(const mender *w, uint32_t v)
 	unsigned n = 0;
 
 	do {
-		n += (unsigned)is_flipped(d, w->s, h / 3) + is_folded(d, h) + is_folded(d, mr_he_next(h));
+		n += (unsigned)is_flipped(d, w->s, h / 3) + mr_dyn_folds(d, h, MR_FOLD) +
+		     mr_dyn_folds(d, mr_he_next(h), MR_FOLD);
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
 	return n;

@@ -32,12 +32,6 @@ typedef struct remesher {
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 } remesher;
 
-static double
-square(double x)
-{
-	return x * x;
-}
-
 /* 3. Flip edges to lower the deviation from valence 6 (4 on boundaries). */
 static void
 regularize(remesher *r, unsigned reach)
@@ -60,7 +54,8 @@ area_variance(remesher *r, double *variance)
 	mr_dyn_areas(r->ctx, d, r->source.uniform, area);
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
-			double a = area[v] / square(mr_remesh_length(&r->source, d, v) / r->source.uniform);
+			double a = area[v] /
+			           mr_square(mr_remesh_length(&r->source, d, v) / r->source.uniform);
 			sum += a;
 			squares += a * a;
 			n++;
@@ -206,7 +201,7 @@ lengthen(remesher *r, double factor)
 static double
 factor_for(mr_demand n, double faces)
 {
-	return (n.thin + sqrt(square(n.thin) + 4 * faces * n.flat)) / (2 * faces);
+	return (n.thin + sqrt(mr_square(n.thin) + 4 * faces * n.flat)) / (2 * faces);
 }
 
 /* How many faces there are to be; 0: as many as the length gives.  A closed surface has twice as many as
@@ -292,7 +287,7 @@ most_faces(const mr_mesh *m, const mr_remesh_opts *o)
 
 	if (o->length > 0 || faces_wanted(o) > 0)
 		return most;
-	return fmin(most, FACE_SHARE * square(finest) * (double)m->nf);
+	return fmin(most, FACE_SHARE * mr_square(finest) * (double)m->nf);
 }
 
 /* Refuses a length that would take more faces than can be numbered, or be kept in memory. */

@@ -57,12 +57,6 @@ is_edge(const mr_dyn *d, uint32_t h)
 	return !mr_dyn_face_dead(d, h / 3) && (d->twin[h] == MR_NONE || h < d->twin[h]);
 }
 
-static double
-square(double x)
-{
-	return x * x;
-}
-
 /* The longest edge of h's face, h itself among equals. */
 static uint32_t
 longest_side(const mr_dyn *d, uint32_t h)
@@ -119,9 +113,9 @@ too_long(const resampler *r, uint32_t h)
 	const mr_dyn *d = r->d;
 	double l = r->coarser * target(r, h), l2 = edge_length2(d, h);
 
-	if (l2 > square(LONG * l))
+	if (l2 > mr_square(LONG * l))
 		return true;
-	return l2 > square(STRETCHED * l) && is_inside(d, h) && opposite_cosine(d, h) < WIDE &&
+	return l2 > mr_square(STRETCHED * l) && is_inside(d, h) && opposite_cosine(d, h) < WIDE &&
 	       opposite_cosine(d, d->twin[h]) < WIDE;
 }
 
@@ -131,9 +125,9 @@ too_short(const resampler *r, uint32_t h)
 	const mr_dyn *d = r->d;
 	double l = target(r, h), l2 = edge_length2(d, h);
 
-	if (l2 < square(SHORT * l))
+	if (l2 < mr_square(SHORT * l))
 		return true;
-	return l2 < square(SQUEEZED * l) && is_inside(d, h) && opposite_cosine(d, h) > NARROW &&
+	return l2 < mr_square(SQUEEZED * l) && is_inside(d, h) && opposite_cosine(d, h) > NARROW &&
 	       opposite_cosine(d, d->twin[h]) > NARROW;
 }
 
@@ -200,7 +194,7 @@ place_middle(resampler *r, uint32_t m)
 {
 	const mr_remesh_source *s = r->s;
 	mr_dyn *d = r->d;
-	double far2 = square(MR_FAR * mr_remesh_length(s, d, m));
+	double far2 = mr_square(MR_FAR * mr_remesh_length(s, d, m));
 	mr_closest c = mr_project_walk(s->m, s->topo, d->at[m], d->p[m]);
 
 	if (c.dist2 > far2)
@@ -253,8 +247,8 @@ mr_coarsest(const mr_dyn *d, const mr_remesh_source *s)
 
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (is_edge(d, h))
-			ratio2 = fmax(ratio2, edge_length2(d, h) / square(LONG * target(&r, h)));
-	while (ratio2 > square(2 * coarser))
+			ratio2 = fmax(ratio2, edge_length2(d, h) / mr_square(LONG * target(&r, h)));
+	while (ratio2 > mr_square(2 * coarser))
 		coarser *= 2;
 	return coarser;
 }
@@ -315,8 +309,8 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, 
 			if (!length_is_good(pb, pv, p, longest2, &strings) ||
 			    !length_is_good(pc, pv, p, longest2, &strings))
 				return false;
-			if (strings && square(mr_dot(before, mr_sub(p, pv))) >
-					   square(MR_FAR) * longest2 * mr_norm2(before))
+			if (strings && mr_square(mr_dot(before, mr_sub(p, pv))) >
+					   mr_square(MR_FAR) * longest2 * mr_norm2(before))
 				return false;
 			*strung |= strings;
 			if (moved < MR_NEEDLE && moved < 0.2 * shape)
@@ -339,7 +333,7 @@ longest_at(const resampler *r, uint32_t v, double slack, double longest2)
 {
 	if (!r->s->length)
 		return longest2;
-	return fmin(longest2, square(slack * mr_remesh_length(r->s, r->d, v)));
+	return fmin(longest2, mr_square(slack * mr_remesh_length(r->s, r->d, v)));
 }
 
 /* True where moving v to p makes an edge to a neighbour of it too long, as most merges that are refused
@@ -423,7 +417,7 @@ static void
 try_collapse(resampler *r, uint32_t h)
 {
 	mr_dyn *d = r->d;
-	double longest2 = square(LONG * target(r, h));
+	double longest2 = mr_square(LONG * target(r, h));
 	uint32_t a, b, at;
 	mr_v3 p, facing;
 	bool strung = false;

@@ -5,15 +5,6 @@
 enum { MOST = 10 };
 
 static bool
-is_folded(const mr_dyn *d, uint32_t h)
-{
-	uint32_t g = d->twin[h];
-
-	return g != MR_NONE &&
-	       mr_folds(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3), MR_NEAR_FOLD);
-}
-
-static bool
 makes_a_needle(const mr_dyn *d, uint32_t v, mr_v3 p)
 {
 	uint32_t h = d->out[v];
@@ -48,7 +39,7 @@ mr_unfold(mr_dyn *d)
 	for (int i = 0; i < MOST && folded; i++) {
 		folded = false;
 		for (uint32_t h = 0; h < 3 * d->nf; h++) {
-			if (mr_dyn_face_dead(d, h / 3) || h > d->twin[h] || !is_folded(d, h))
+			if (mr_dyn_face_dead(d, h / 3) || h > d->twin[h] || !mr_dyn_folds(d, h, MR_NEAR_FOLD))
 				continue;
 			folded = true;
 			draw_in(d, d->v[h]);

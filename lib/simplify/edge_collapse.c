@@ -124,12 +124,6 @@ sum_of(const mr_dyn *d, const mr_site *site, uint32_t h)
 	return s;
 }
 
-static double
-square(double x)
-{
-	return x * x;
-}
-
 /* The square of what the vertex across from h will lack of 5 edges, where it is inside. */
 static double
 lack(const mr_dyn *d, const mr_site *site, uint32_t h)
@@ -137,7 +131,7 @@ lack(const mr_dyn *d, const mr_site *site, uint32_t h)
 	uint32_t v = mr_dyn_apex(d, h);
 	unsigned left = site[v].rim ? 5 : mr_dyn_valence(d, v, 6) - 1;
 
-	return square(5.0 - left);
+	return mr_square(5.0 - left);
 }
 
 /* The factor of the cost by valences. */
@@ -149,7 +143,7 @@ uneven(const mr_dyn *d, const mr_site *site, uint32_t h, unsigned faces)
 	if (d->twin[h] != MR_NONE)
 		total += lack(d, site, d->twin[h]);
 	if (faces > 7)
-		total += square(faces - 7.0);
+		total += mr_square(faces - 7.0);
 	return 1 + VALENCE * total;
 }
 

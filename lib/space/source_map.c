@@ -32,8 +32,7 @@ mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map)
 static bool
 is_identity(const mr_mesh *mesh, const mr_mesh *base, const mr_places *map)
 {
-	if (mesh->nf != base->nf || mesh->nv != base->nv ||
-	    memcmp(mesh->t, base->t, mesh->nf * sizeof *mesh->t))
+	if (!mr_same_triangles(mesh, base))
 		return false;
 	for (size_t f = 0; f < base->nf; f++)
 		for (int k = 0; k < 3; k++) {
