@@ -81,13 +81,6 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 	return MR_OK;
 }
 
-/* Whether a length is relative stands behind it. */
-static bool *
-relative_of(const cmd_opt *o)
-{
-	return (bool *)(void *)((double *)o->value + 1);
-}
-
 static mr_status
 parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 {
@@ -101,7 +94,7 @@ parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
 	MR_TRY(parse_real(ctx, what, number, o->min, o->max, &x));
 	*(double *)o->value = relative ? x / 100 : x;
-	*relative_of(o) = relative;
+	*(bool *)(void *)((double *)o->value + 1) = relative; /* which stands behind it */
 	return MR_OK;
 }
 

@@ -449,15 +449,6 @@ add_face(ply *f)
 		mr_build_face(&f->rows.b, c, uv, NULL, f->indices_count);
 }
 
-/* Keeps the row at hand as row `at` of the properties. */
-static void
-keep_row(ply *f, const element *e, size_t at)
-{
-	for (size_t i = 0; i < e->properties; i++)
-		if (e->property[i].kept)
-			mr_build_value(&f->rows.b, e->property[i].kept, at, f->row[i]);
-}
-
 /* ---- rows ---- */
 
 /* Value i of the row at hand, or its list. */
@@ -536,8 +527,9 @@ read_element(ply *f, const element *e)
 			add_face(f);
 		else if (e->kind == STRIPS)
 			add_strips(f);
-		if (f->rows.b.faces > faces)
-			keep_row(f, e, faces);
+		for (size_t k = 0; k < e->properties && f->rows.b.faces > faces; k++)
+			if (e->property[k].kept)
+				mr_build_value(&f->rows.b, e->property[k].kept, faces, f->row[k]);
 	}
 	if (e->kind == VERTEX) {
 		mr_rows_end(&f->rows);

@@ -280,14 +280,6 @@ render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *o, const char *path)
 	return mr_png_write(ctx, path, &image);
 }
 
-static mr_status
-check_options(mr_ctx *ctx, const mr_render_opts *o)
-{
-	MR_TRY(mr_check_number(ctx, "width", (double)o->width, 1, 16384));
-	MR_TRY(mr_check_number(ctx, "height", (double)o->height, 1, 16384));
-	return mr_check_number(ctx, "columns", (double)o->columns, 0, 10000);
-}
-
 mr_status
 mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path)
 {
@@ -295,8 +287,12 @@ mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path
 	mr_mark mark = mr_mark_take(ctx);
 
 	MR_ENTER(ctx);
-	MR_TRY(check_options(ctx, opts ? opts : &defaults));
-	MR_TRY(render(ctx, f, opts ? opts : &defaults, path));
+	if (!opts)
+		opts = &defaults;
+	MR_TRY(mr_check_number(ctx, "width", (double)opts->width, 1, 16384));
+	MR_TRY(mr_check_number(ctx, "height", (double)opts->height, 1, 16384));
+	MR_TRY(mr_check_number(ctx, "columns", (double)opts->columns, 0, 10000));
+	MR_TRY(render(ctx, f, opts, path));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -124,15 +124,6 @@ add_masses(mr_ctx *ctx, smoothing *s)
 	return mass;
 }
 
-/* -L p on the vertices that move, from the matrix that L has become. */
-static void
-residual_of(const mr_ctx *ctx, const smoothing *s, const double *mass, const mr_v3 *p, mr_v3 *r)
-{
-	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &r->x);
-	for (size_t v = 0; v < s->m->nv; v++)
-		r[v] = s->stays[v] ? mr_vec(0, 0, 0) : mr_sub(mr_mul(mass[v], p[v]), r[v]);
-}
-
 /* A pass of time t solves for the motion z: (M / t + L) z = -L p, which is p' = p + z. */
 static mr_status
 implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
@@ -148,7 +139,10 @@ implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
 	MR_TRY(mr_incomplete_new(ctx, &s->l, true, &b));
 	for (size_t i = 0; i < s->found.passes; i++) {
 		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
-		residual_of(ctx, s, mass, p, r);
+		mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &r->x);
+		for (size_t v = 0; v < s->m->nv;
+		     v++) /* -L p where vertices move, from the matrix that L has become */
+			r[v] = s->stays[v] ? mr_vec(0, 0, 0) : mr_sub(mr_mul(mass[v], p[v]), r[v]);
 		memset(z, 0, rows.n * sizeof *z);
 		cg.most = s->found.iterations + MOST;
 		MR_TRY(mr_cg_improve(ctx, &cg, &z->x, &r->x, &s->found.iterations));

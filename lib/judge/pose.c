@@ -68,19 +68,12 @@ map_of(const fit *f, mr_v3 from)
 	return mr_add(f->to, mr_mat3_apply(&f->yx, mr_sub(from, f->from)));
 }
 
-static bool
-is_rigid(const fit *f)
-{
-	const double little = 0.01;
-
-	return !f->given && fabs(mr_mat3_determinant(&f->yx) - 1) < little;
-}
-
 /* Handles that only turn ask for no other volume: they turn, or are where they were.  far: that is no move.
  */
 static bool
 keeps_volume(const fit *fits, size_t regions, double far)
 {
+	const double little = 0.01;     /* change of volume, of what is rigid */
 	const double least = MR_PI / 6; /* of a pull, which may change the volume, handles turn by less */
 	const fit *lowest = NULL;
 	bool moved = false, turned = false;
@@ -90,7 +83,7 @@ keeps_volume(const fit *fits, size_t regions, double far)
 		mr_mat3 between;
 		if (!own->n || r == MR_REGION_FREE)
 			continue;
-		if (!is_rigid(own))
+		if (own->given || !(fabs(mr_mat3_determinant(&own->yx) - 1) < little))
 			return false;
 		lowest = lowest ? lowest : own;
 		between = mr_mat3_multiply_transposed(&lowest->turn, &own->turn);

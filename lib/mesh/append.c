@@ -22,21 +22,14 @@ rows_of(const mr_frame *f, const char *layer, char element)
 	return 0;
 }
 
-/* Whether a frame without the column says what rows of zeros do. */
-static bool
-is_zero_by_default(const char *name)
-{
-	static const char *const names[] = { "crease", "smoothing", "detail_offset", NULL };
-
-	return mr_is_one_of(name, names);
-}
-
-/* Whether every frame that has the layer, and rows of the element in it, has the column too.  Without
- * polygons each triangle is one. */
+/* Whether every frame that has the layer, and rows of the element in it, has the column too, or says by
+ * having none what rows of zeros do.  Without polygons each triangle is one. */
 static bool
 all_have(const joined *j)
 {
-	if (!strcmp(j->name, "polygon") || is_zero_by_default(j->name))
+	static const char *const names[] = { "polygon", "crease", "smoothing", "detail_offset", NULL };
+
+	if (mr_is_one_of(j->name, names))
 		return true;
 	for (size_t i = 0; i < j->n; i++) {
 		const mr_column *c = mr_frame_find(j->frames[i], j->layer, j->name);

@@ -8,27 +8,16 @@ direction(const mr_dyn *d, uint32_t a, uint32_t b)
 	return mr_unit(mr_sub(d->p[b], d->p[a]));
 }
 
-/* True where the faces at h and g meet at more than an angle of the given cosine. */
-static bool
-is_sharp(const mr_dyn *d, uint32_t h, uint32_t g, double cosine)
-{
-	return mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)), mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine;
-}
-
-/* True where h is on the boundary, or on an edge sharper than `feature` degrees. */
-static bool
-makes_curve(const mr_dyn *d, uint32_t h, double feature)
-{
-	uint32_t g = d->twin[h];
-
-	return g == MR_NONE || (feature < 180 && is_sharp(d, h, g, cos(feature * MR_PI / 180)));
-}
-
+/* Boundaries, and edges sharper than `feature` degrees. */
 static void
 mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
 {
+	double cosine = cos(feature * MR_PI / 180);
+
 	for (uint32_t h = 0; h < 3 * d->nf; h++) {
-		if (!makes_curve(d, h, feature))
+		uint32_t g = d->twin[h];
+		if (g != MR_NONE && !(feature < 180 && mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)),
+							   mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine))
 			continue;
 		if (!d->curve) {
 			d->curve = MR_NEW(ctx, 3 * d->room_f, uint32_t);

@@ -44,14 +44,6 @@ take_normals(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_panel *p)
 	return MR_OK;
 }
 
-static void
-take_numbers(mr_ctx *keep, const mr_column *c, mr_panel *p)
-{
-	p->value = MR_NEW(keep, c->rows, double);
-	for (size_t i = 0; i < c->rows; i++)
-		p->value[i] = mr_column_number(c, i);
-}
-
 /* Colours, or numbers of kinds, which need no range to become colours. */
 static void
 take_colors(mr_ctx *keep, const mr_column *c, mr_panel *p)
@@ -94,10 +86,13 @@ take_column(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, const char *name, mr_pan
 	p->subject.per_face = c->shape.element == 'f';
 	c = mr_frame_find(frame, p->layer, name); /* decoded */
 	if ((c->shape.type == 'b' && c->shape.components >= 3) ||
-	    (c->shape.type == 'u' && c->shape.components == 1))
+	    (c->shape.type == 'u' && c->shape.components == 1)) {
 		take_colors(keep, c, p);
-	else
-		take_numbers(keep, c, p);
+		return MR_OK;
+	}
+	p->value = MR_NEW(keep, c->rows, double);
+	for (size_t i = 0; i < c->rows; i++)
+		p->value[i] = mr_column_number(c, i);
 	return MR_OK;
 }
 

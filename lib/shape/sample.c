@@ -19,15 +19,6 @@ face_at(const double *sum, size_t nf, double x)
 	return low;
 }
 
-/* Uniform in the triangle (Osada, Funkhouser, Chazelle, Dobkin 2002, section 4). */
-static mr_v3
-sample_face(const mr_mesh *m, size_t f, mr_random *r)
-{
-	double a = sqrt(mr_random_real(r)), b = mr_random_real(r);
-
-	return mr_place_point(m, (mr_place){ (uint32_t)f, mr_vec(1 - a, a * (1 - b), a * b) });
-}
-
 mr_status
 mr_surface_sample(mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr_v3 **points, mr_v3 **normals)
 {
@@ -42,7 +33,9 @@ mr_surface_sample(mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr
 		return mr_fail(ctx, MR_EMESH, "%s: the %zu faces have no area to sample", m->name, m->nf);
 	for (size_t i = 0; i < count; i++) {
 		size_t f = face_at(sum, m->nf, mr_random_real(&r) * total);
-		p[i] = sample_face(m, f, &r);
+		/* uniform in the triangle (Osada, Funkhouser, Chazelle, Dobkin 2002, section 4) */
+		double a = sqrt(mr_random_real(&r)), b = mr_random_real(&r);
+		p[i] = mr_place_point(m, (mr_place){ (uint32_t)f, mr_vec(1 - a, a * (1 - b), a * b) });
 		normal[i] = mr_unit(mr_face_cross(m, f));
 	}
 	mr_mark_release(ctx, mark);

@@ -293,13 +293,6 @@ solve(double a[TERMS][TERMS], double b[TERMS])
 	return true;
 }
 
-/* Coefficients of 1 x y xx rxy yy, r the root of 2: the norm of the last three is that of their matrix. */
-static void
-row_at(double x, double y, double row[TERMS])
-{
-	memcpy(row, (double[TERMS]){ 1, x, y, x * x, sqrt(2) * x * y, y * y }, TERMS * sizeof *row);
-}
-
 /* The quadric of least squares through n heights t; the quadratic terms shrink a little, which keeps the
  * system definite. */
 static bool
@@ -344,7 +337,10 @@ quadric_residuals(const mr_v3 *q, size_t k, double *off)
 	for (size_t i = 0; i < k; i++) {
 		mr_v3 d = mr_mul(1 / radius, mr_sub(q[i], mean));
 		double x = mr_dot(d, axis[2]), y = mr_dot(d, axis[1]);
-		row_at(x, y, row + i * TERMS);
+		/* coefficients of 1 x y xx rxy yy, r the root of 2: the norm of the last three is that of
+		 * their matrix */
+		memcpy(row + i * TERMS, (double[TERMS]){ 1, x, y, x * x, sqrt(2) * x * y, y * y },
+		    TERMS * sizeof *row);
 		t[i] = mr_dot(d, axis[0]);
 	}
 	if (!fit_quadric(row, t, k, z))

@@ -4,24 +4,17 @@
 #include <stdint.h>
 #include <string.h>
 
-/* One value, widened.  `size` is a constant wherever this is inlined, and so it is below. */
-static inline uint64_t
-load(const unsigned char *p, size_t size)
-{
-	uint64_t v = 0;
-
-	memcpy(&v, p, size); /* little-endian, as the wire */
-	return v;
-}
-
-/* Component after component of n rows: differences of its values, their bytes in planes. */
+/* Component after component of n rows: differences of its values, their bytes in planes.  `size` is a
+ * constant wherever this is inlined. */
 static inline void
 split_sized(const unsigned char *rows, size_t n, size_t components, unsigned char *planes, size_t size)
 {
 	for (size_t c = 0; c < components; c++, planes += n * size) {
 		uint64_t before = 0;
 		for (size_t i = 0; i < n; i++) {
-			uint64_t v = load(rows + (i * components + c) * size, size), d = v - before;
+			uint64_t v = 0, d;
+			memcpy(&v, rows + (i * components + c) * size, size); /* little-endian, as the wire */
+			d = v - before;
 			for (size_t b = 0; b < size; b++)
 				planes[b * n + i] = (unsigned char)(d >> 8 * b);
 			before = v;
