@@ -633,7 +633,7 @@ cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand))
 	size_t count = c->operand_count ? c->operand_count : 1;
 
 	for (size_t i = 0; i < count; i++) {
-		mr_mark mark = mr_mark_take(&c->ctx);
+		MR_SCOPE(&c->ctx);
 		mr_status status = one(c, c->operand_count ? c->operands[i] : "-");
 		if (status < 0 && (!c->keep_going || status == MR_EUSAGE))
 			return status;
@@ -642,7 +642,6 @@ cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand))
 			leave_out(c);
 			begin_frame(c, NULL);
 		}
-		mr_mark_release(&c->ctx, mark);
 	}
 	return MR_OK;
 }
@@ -651,7 +650,7 @@ static void
 one_frame(cmd *c, mr_frame *f)
 {
 	struct cmd_state *s = c->state;
-	mr_mark mark = mr_mark_take(&c->ctx);
+	MR_SCOPE(&c->ctx);
 	mr_status status;
 
 	f->number = ++c->frame; /* over all the streams */
@@ -671,7 +670,6 @@ one_frame(cmd *c, mr_frame *f)
 		die(c, status);
 	s->lost_key = status < 0 && f->key;
 	s->frame_name = NULL;
-	mr_mark_release(&c->ctx, mark);
 }
 
 /* With -k: what cannot be read counts as a frame that failed. */
@@ -688,7 +686,7 @@ leave_out_input(cmd *c, mr_status status)
 static void
 read_model(cmd *c, const char *path)
 {
-	mr_mark mark = mr_mark_take(&c->ctx);
+	MR_SCOPE(&c->ctx);
 	mr_frame *frame;
 	mr_status status = mr_import(&c->ctx, path, NULL, &frame, NULL);
 
@@ -696,7 +694,6 @@ read_model(cmd *c, const char *path)
 		one_frame(c, frame);
 	else
 		leave_out_input(c, status);
-	mr_mark_release(&c->ctx, mark);
 }
 
 static void

@@ -46,7 +46,7 @@ prepare(cmd *c)
 static mr_status
 send(cmd *c, const mr_frame *f, const mr_handles *h, size_t number)
 {
-	mr_mark mark = mr_mark_take(&c->ctx);
+	MR_SCOPE(&c->ctx);
 	mr_frame copy;
 
 	mr_frame_copy(&c->ctx, f, &copy);
@@ -55,9 +55,7 @@ send(cmd *c, const mr_frame *f, const mr_handles *h, size_t number)
 		copy.name = mr_format(&c->ctx, "%s-%04zu", f->name, number);
 	}
 	MR_TRY(mr_motion_put(&c->ctx, &copy, h, &motion, number));
-	MR_TRY(cmd_send(c, &copy));
-	mr_mark_release(&c->ctx, mark);
-	return MR_OK;
+	return cmd_send(c, &copy);
 }
 
 /* Whether the sequence ends before the motion does. */

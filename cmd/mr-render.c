@@ -86,11 +86,10 @@ write_frames(cmd *c)
 		    c->operands[0]);
 	MR_TRY(mr_shot_aim(&c->ctx, &gallery, 0, gallery.frames, &opts, &shot));
 	for (size_t i = 0; i < gallery.frames; i++) {
-		mr_mark mark = mr_mark_take(&c->ctx);
+		MR_SCOPE(&c->ctx);
 		mr_progress(&c->ctx, "drawing", (double)i / (double)gallery.frames);
 		MR_TRY(mr_shot_draw(&c->ctx, &gallery, &shot, i, &opts, &image));
 		MR_TRY(write_picture(c, &gallery.frame[i], &image));
-		mr_mark_release(&c->ctx, mark);
 	}
 	written += gallery.frames;
 	gallery = (mr_gallery){ 0 };

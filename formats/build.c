@@ -353,7 +353,7 @@ mr_number_rows(
     mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count)
 {
 	size_t mask = 64, bytes = width * sizeof *x;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *slot, used = 0; /* number + 1 */
 
 	while (mask < n + n / 2)
@@ -373,7 +373,6 @@ mr_number_rows(
 		number[i] = slot[at] - 1;
 	}
 	*count = used;
-	mr_mark_release(ctx, mark);
 }
 
 /* The values of vertices, where those of all the corners of each are the same to the bit and no corner is

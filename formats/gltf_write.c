@@ -58,7 +58,7 @@ typedef struct layer {
 static void
 sort_by(mr_ctx *ctx, const uint32_t *key, size_t most, uint32_t *order, size_t n)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t *start = MR_NEW_ZERO(ctx, most + 2, size_t);
 	uint32_t *to = MR_NEW(ctx, n, uint32_t);
 
@@ -69,7 +69,6 @@ sort_by(mr_ctx *ctx, const uint32_t *key, size_t most, uint32_t *order, size_t n
 	for (size_t i = 0; i < n; i++)
 		to[start[key[order[i]]]++] = order[i];
 	memcpy(order, to, n * sizeof *to);
-	mr_mark_release(ctx, mark);
 }
 
 static void

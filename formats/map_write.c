@@ -115,14 +115,12 @@ write_heights(mr_ctx *ctx, mapping *m, const char *path)
 	mr_png_text text[] = { { MR_MAP_LEVEL, mr_format(ctx, "%zu", m->atlas.level) },
 		{ MR_MAP_RANGE, numbers(ctx, m->low, m->high) },
 		{ MR_MAP_SIZE, numbers(ctx, (double)m->atlas.width, (double)m->atlas.height) } };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 
 	m->gray = (mr_gray){ .width = m->atlas.width, .height = m->atlas.height, .text = text, .texts = 3 };
 	m->gray.pixel = MR_NEW(ctx, m->gray.width * m->gray.height, uint16_t);
 	mr_parallel(ctx, m->atlas.height, GRAIN, draw_heights, m);
-	MR_TRY(mr_png_write_gray(ctx, path, &m->gray));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_png_write_gray(ctx, path, &m->gray);
 }
 
 /* ---- normals ---- */
@@ -196,28 +194,24 @@ displaced_normals(mr_ctx *ctx, mapping *m)
 {
 	mr_mesh surface = m->domain.m;
 	mr_v3 *p;
-	mr_mark mark;
 
 	m->normal = MR_NEW(ctx, surface.nv, mr_v3);
-	mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	p = MR_NEW(ctx, surface.nv, mr_v3);
 	mr_domain_displace(ctx, &m->domain, m->height, 1, p);
 	surface.p = p;
 	mr_vertex_normals(ctx, &surface, NULL, m->normal);
-	mr_mark_release(ctx, mark);
 }
 
 static mr_status
 write_normals(mr_ctx *ctx, mapping *m, const char *path)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 
 	displaced_normals(ctx, m);
 	MR_TRY(mr_image_new(ctx, m->atlas.width, m->atlas.height, (mr_rgb){ 0, 0, 0 }, &m->image));
 	mr_parallel(ctx, m->atlas.height, GRAIN, draw_normals, m);
-	MR_TRY(mr_png_write(ctx, path, &m->image));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_png_write(ctx, path, &m->image);
 }
 
 /* ---- what names the pictures ---- */

@@ -321,16 +321,14 @@ compare_mesh(mr_ctx *ctx, mr_frame *f, displaced *d)
 {
 	const mr_loop *finest = &d->level[d->n];
 	mr_mesh mesh, made;
-	mr_mark mark;
 
 	MR_TRY(mr_layer_surface_or_points(ctx, f, "mesh", &mesh));
 	if (finest->nv != mesh.nv || finest->nf != mesh.nf ||
 	    memcmp(mesh.t, finest->t, mesh.nf * sizeof *mesh.t) != 0)
 		return MR_OK;
-	mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	MR_TRY(make_mesh(ctx, f, d, &made));
 	d->is_mesh = !memcmp(made.p, mesh.p, mesh.nv * sizeof *mesh.p);
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

@@ -70,14 +70,13 @@ strip_jpeg(const unsigned char *p, size_t n, unsigned char *out)
 static mr_status
 check_picture(mr_ctx *ctx, const mr_file_bytes *b)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_image image;
 
 	MR_TRY(mr_image_decode(ctx, b->data, b->size, &image));
 	if (image.width > LARGEST_SIDE || image.height > LARGEST_SIDE)
 		mr_found(ctx,
 		    &(mr_finding){ .kind = MR_LIMIT, .what = "a picture is larger than many browsers show" });
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

@@ -284,7 +284,7 @@ mr_status
 mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path)
 {
 	static const mr_render_opts defaults = MR_RENDER_DEFAULTS;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 
 	MR_ENTER(ctx);
 	if (!opts)
@@ -292,7 +292,5 @@ mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path
 	MR_TRY(mr_check_number(ctx, "width", (double)opts->width, 1, 16384));
 	MR_TRY(mr_check_number(ctx, "height", (double)opts->height, 1, 16384));
 	MR_TRY(mr_check_number(ctx, "columns", (double)opts->columns, 0, 10000));
-	MR_TRY(render(ctx, f, opts, path));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return render(ctx, f, opts, path);
 }

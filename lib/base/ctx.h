@@ -126,6 +126,22 @@ void mr_entry_end(mr_entry *entry);
 	return MR_EMEM
 #endif
 
+/* Private to MR_SCOPE. */
+typedef struct mr_scope {
+	mr_ctx *ctx;
+	mr_mark mark;
+} mr_scope;
+
+static inline void
+mr_scope_end(mr_scope *s)
+{
+	mr_mark_release(s->ctx, s->mark);
+}
+
+/* What the arena gets from here on is released at the end of the block, however that is left. */
+#define MR_SCOPE(context)                                                                                    \
+	mr_scope scope_ __attribute__((cleanup(mr_scope_end), unused)) = { (context), mr_mark_take(context) }
+
 /* An arena for what outlives the call, to be asked for in each: its threads, listener and way back are those
  * of ctx. */
 mr_ctx *mr_keep(const mr_ctx *ctx, mr_ctx *keep);

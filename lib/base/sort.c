@@ -86,12 +86,11 @@ mr_kth(double *x, size_t n, size_t k)
 void
 mr_median(mr_ctx *ctx, const double *x, size_t n, double *median)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t m = n < MEDIAN_OF ? n : MEDIAN_OF;
 	double *some = MR_NEW(ctx, m, double);
 
 	for (size_t i = 0; i < m; i++)
 		some[i] = x[i * n / m];
 	*median = mr_kth(some, m, m / 2);
-	mr_mark_release(ctx, mark);
 }

@@ -286,10 +286,9 @@ mr_correspond_near(const mr_correspondence *c, const mr_mesh *base, size_t i)
 void
 mr_correspond_rest(mr_ctx *ctx, const mr_correspondence *c, const bool *stands, uint32_t *face, mr_v3 *bary)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	walker w = { c, c->mesh, &c->lifted, c->inc, stands, face, bary, MR_NEW(ctx, c->mesh->nv, double) };
 
 	mr_parallel(ctx, c->mesh->nv, 1024, walk_piece, &w);
 	follow_neighbours(ctx, &w, &c->mesh_inc);
-	mr_mark_release(ctx, mark);
 }

@@ -59,7 +59,7 @@ count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 static void
 find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored, uint32_t *part)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	bool *held = MR_NEW_ZERO(ctx, d->nv, bool);
 
 	for (int pass = 0; pass < 2; pass++)
@@ -75,7 +75,6 @@ find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored,
 		part[v] = mr_sets_root(part, v);
 		anchored[v] = d->region[v] == MR_REGION_FREE && held[part[v]];
 	}
-	mr_mark_release(ctx, mark);
 }
 
 /* Says what becomes of parts that no constraint reaches, but for small ones, and lets all of them follow. */
@@ -234,14 +233,13 @@ pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_
 mr_status
 mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double started = mr_seconds();
 
 	memcpy(out, p0, d->nv * sizeof *out);
 	if (maps)
 		MR_TRY(check_maps(ctx, d, maps));
 	MR_TRY(maps ? pose(ctx, d, p0, maps, out) : relax(ctx, d, out));
-	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;
 }
@@ -294,7 +292,6 @@ respond_to_whole(const mr_deform *d, const mr_v3 *p0, double *response)
 mr_status
 mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response)
 {
-	mr_mark mark = mr_mark_take(ctx);
 	double started = mr_seconds();
 
 	memset(response, 0, d->nv * d->handles * 4 * sizeof *response);
@@ -302,10 +299,10 @@ mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response)
 		if (d->region[v] >= MR_REGION_HANDLE)
 			row_of(p0[v], response + 4 * (d->handles * v + d->region[v] - MR_REGION_HANDLE));
 	for (size_t h = 0; d->system.solver && h < d->handles; h++) {
+		MR_SCOPE(ctx);
 		mr_progress(ctx, "basis", (double)h / (double)d->handles);
 		if (MR_REGION_HANDLE + h != d->lowest)
 			MR_TRY(respond_to(ctx, d, h, p0, response));
-		mr_mark_release(ctx, mark);
 	}
 	if (d->system.solver && d->lowest >= MR_REGION_HANDLE)
 		respond_to_whole(d, p0, response);

@@ -8,7 +8,7 @@
 static mr_status
 find_anchors(mr_ctx *ctx, const mr_mesh *rest, const mr_box *box, mr_loose *l)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *lead = MR_NEW(ctx, rest->nv, uint32_t);
 	mr_v3 *at = MR_NEW(ctx, rest->nv, mr_v3), *middle = MR_NEW(ctx, l->parts, mr_v3);
 	size_t leading = 0;
@@ -24,7 +24,6 @@ find_anchors(mr_ctx *ctx, const mr_mesh *rest, const mr_box *box, mr_loose *l)
 	for (size_t i = 0; i < l->parts * MR_ANCHORS; i++)
 		if (l->anchor[i] != MR_NONE)
 			l->anchor[i] = lead[l->anchor[i]];
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

@@ -165,7 +165,7 @@ mr_section *
 mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count, const double (*cot)[3])
 {
 	mr_section *out = MR_NEW_ZERO(ctx, m->nf * count, mr_section);
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	finder s = { .m = m, .cot = cot, .weights = count };
 
 	s.of = mr_alloc(ctx, m->nf, sizeof *s.of);
@@ -184,6 +184,5 @@ mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t cou
 		}
 		place_sections(&s, out);
 	}
-	mr_mark_release(ctx, mark);
 	return out;
 }

@@ -76,7 +76,7 @@ mr_inside_keep(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *inside, double l
 {
 	enum { MOST = 5 };
 	static const double enough = 1e-4;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *g = MR_NEW(ctx, 3 * s->patch.mesh.nv, double), slope = 0, step;
 	double goal, missing;
 	mr_mesh now = *inside;
@@ -101,6 +101,5 @@ mr_inside_keep(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *inside, double l
 		step *= left / (missing - left);
 		missing = left;
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

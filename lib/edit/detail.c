@@ -282,7 +282,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 		.bary = MR_NEW(ctx, n, mr_v3),
 		.offset = MR_NEW_ZERO(ctx, n, mr_v3),
 		.height = MR_NEW(ctx, n, double) };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
 	mr_box box = mr_mesh_box(mesh);
 	mr_incidence inc;
@@ -303,7 +303,6 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	if (result)
 		*result = report(&e, mr_box_diagonal(box));
 	*d = found;
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -429,7 +428,7 @@ mr_status
 mr_decode(
     mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
 	decoder j = { .surface = { base, normal }, .d = d, .gain = gain, .p = p };
 	mr_mesh rest = *base;
@@ -437,7 +436,6 @@ mr_decode(
 	rest.p = d->rest;
 	turn_frames(ctx, &rest, inc, normal, &j);
 	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

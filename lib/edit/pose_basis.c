@@ -35,14 +35,13 @@ void
 mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
     const mr_affine *t, mr_v3 *out)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_affine *change = MR_NEW(ctx, handles, mr_affine), identity = mr_identity();
 
 	for (size_t h = 0; h < handles; h++)
 		for (int i = 0; i < 12; i++)
 			change[h].m[i] = t[h].m[i] - identity.m[i];
 	mr_parallel(ctx, n, 32768, respond, &(response_job){ p0, response, handles, change, out });
-	mr_mark_release(ctx, mark);
 }
 
 mr_status

@@ -44,7 +44,7 @@ static mr_status
 check_handles(
     mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const uint32_t *out, const mr_mesh *base)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_regions want = mr_regions_of(ctx, region, mesh->nv), reached = mr_regions_of(ctx, out, base->nv);
 
 	for (size_t r = MR_REGION_HANDLE; r < want.n; r++)
@@ -54,7 +54,6 @@ check_handles(
 			    "triangle, "
 			    "or farther from it than from others",
 			    base->name, r - MR_REGION_HANDLE);
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -63,7 +62,7 @@ transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const
     const mr_mesh *base, uint32_t *out)
 {
 	transfer_job j = { .mesh = mesh, .base = base, .region = region, .map = map, .out = out };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_bvh *bvh;
 
 	if (!map) {
@@ -72,7 +71,6 @@ transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const
 		j.bvh = bvh;
 	}
 	mr_parallel(ctx, base->nv, 1024, transfer, &j);
-	mr_mark_release(ctx, mark);
 	return check_handles(ctx, mesh, region, out, base);
 }
 

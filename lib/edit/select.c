@@ -220,13 +220,12 @@ beyond_level(const scene *s, const term *t, mr_v3 p)
 static mr_status
 eval_geodesic(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double r = length_of(s, t), *distance = MR_NEW(ctx, s->m->nv, double);
 
 	mr_geodesic_distances(ctx, s->m, point_of(t), r, distance);
 	for (size_t v = 0; v < s->m->nv; v++)
 		in[v] = distance[v] <= r;
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -235,7 +234,7 @@ eval_geodesic(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 static void
 add_rings(mr_ctx *ctx, const scene *s, size_t rings, const uint32_t *region, bool *in)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *queue = MR_NEW(ctx, s->m->nv, uint32_t);
 	uint32_t into = s->target == MR_REGION_FIXED ? MR_REGION_FREE : MR_REGION_FIXED;
 	size_t n = 0, next = 0;
@@ -253,7 +252,6 @@ add_rings(mr_ctx *ctx, const scene *s, size_t rings, const uint32_t *region, boo
 					in[w] = true;
 					queue[n++] = w;
 				}
-	mr_mark_release(ctx, mark);
 }
 
 static mr_status

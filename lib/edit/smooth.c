@@ -26,7 +26,7 @@ typedef struct smoothing {
 static void
 study_edges(mr_ctx *ctx, smoothing *s)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	const mr_mesh *m = s->m;
 	double sum = 0, mean;
 	mr_edges edges;
@@ -42,7 +42,6 @@ study_edges(mr_ctx *ctx, smoothing *s)
 	s->found.volume = mr_edges_enclose(m, &edges) ? mr_mesh_volume(ctx, m) : NAN;
 	s->edge2 = mean * mean;
 	s->found.mean_edge = mean;
-	mr_mark_release(ctx, mark);
 }
 
 /* Vertices without weights have nowhere to go: isolated ones, and those whose faces are all single points. */
@@ -230,7 +229,7 @@ measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 mr_status
 mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out, mr_smooth_result *result)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	smoothing s = { .m = m };
 
 	MR_TRY(choose_passes(ctx, opts, &s));
@@ -245,6 +244,5 @@ mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out,
 	measure_rest(ctx, &s, out);
 	if (result)
 		*result = s.found;
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -127,7 +127,7 @@ mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidenc
 	double size = mr_box_diagonal(mr_box_of(rest->p, rest->nv));
 	turning t = { rest, now, inc, NULL, NULL, 1 / (size * size) };
 	mr_turn *vertex = MR_NEW(ctx, rest->nv, mr_turn), *face;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 
 	face = MR_NEW(ctx, rest->nf, mr_turn);
 	for (int i = 0; i <= PASSES; i++) {
@@ -138,7 +138,6 @@ mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidenc
 		t.to = vertex;
 		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
 	}
-	mr_mark_release(ctx, mark);
 	return vertex;
 }
 

@@ -405,7 +405,7 @@ void
 mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 {
 	const double share = 0.02;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	crowd c = { .then = *m->then,
 		.now = *m->then,
 		.m = m,
@@ -422,5 +422,4 @@ mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 	mark_gathered(ctx, &c);
 	if (c.turned.any || c.gathered.any || c.now.nf <= FEW)
 		look_at_crowd(ctx, &c, harm);
-	mr_mark_release(ctx, mark);
 }

@@ -210,14 +210,12 @@ judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer,
 mr_status
 mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	const char *layer;
 
 	MR_ENTER(ctx);
 	if (!mr_listens(ctx))
 		return MR_OK;
 	MR_TRY(mr_layer_latest(ctx, after, &layer));
-	MR_TRY(judge_surface(ctx, before, after, layer ? layer : "mesh", least));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return judge_surface(ctx, before, after, layer ? layer : "mesh", least);
 }

@@ -180,7 +180,7 @@ measure_faces(void *arg, size_t begin, size_t end)
 static void
 measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t grains = (count + GRAIN - 1) / GRAIN;
 
 	j->sums = MR_NEW(ctx, grains, sums);
@@ -188,7 +188,6 @@ measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
 	*total = SUMS_NONE;
 	for (size_t i = 0; i < grains; i++)
 		sums_join(total, &j->sums[i]);
-	mr_mark_release(ctx, mark);
 }
 
 /* ---- branch and bound ---- */
@@ -357,7 +356,7 @@ static void
 compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, bool alike,
     double scale, mr_distance *out)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	job j = { .a = a, .b = b, .alike = alike && !opts->vertices_only };
 	double area = opts->vertices_only ? 0 : mr_mesh_area(ctx, a);
 	size_t count;
@@ -374,7 +373,6 @@ compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compar
 		measure(ctx, &j, a->nv, measure_vertices, &s);
 		*out = distance_of(&s);
 	}
-	mr_mark_release(ctx, mark);
 }
 
 /* ---- both, and of one connectivity ---- */
@@ -423,7 +421,7 @@ measure_deviation(const mr_mesh *a, const mr_mesh *b, mr_deviation *d)
 static void
 measure_stretch(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, mr_deviation *d)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double low = INFINITY, high = 0, sum = 0;
 	mr_edges edges;
 	size_t n = 0;
@@ -442,7 +440,6 @@ measure_stretch(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, mr_deviation *d
 	d->stretch_min = n ? low : NAN;
 	d->stretch_max = n ? high : NAN;
 	d->stretch_mean = n ? sum / (double)n : NAN;
-	mr_mark_release(ctx, mark);
 }
 
 static mr_distance
@@ -456,7 +453,7 @@ join(const mr_distance *a, const mr_distance *b)
 static mr_status
 compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *o, mr_comparison *out)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_comparison c = { .corresponds = mr_same_triangles(a, b), .diagonal = mr_mesh_diagonal(b) };
 	double scale = fmax(mr_mesh_diagonal(a), c.diagonal);
 	mr_mesh fa, fb;
@@ -471,7 +468,6 @@ compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *
 		measure_deviation(a, b, &c.deviation);
 		measure_stretch(ctx, a, b, &c.deviation);
 	}
-	mr_mark_release(ctx, mark);
 	*out = c;
 	return MR_OK;
 }

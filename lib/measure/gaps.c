@@ -72,7 +72,7 @@ mr_status
 mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps,
     mr_gap_spot *widest)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_v3 *q = MR_NEW(ctx, samples, mr_v3);
 	uint32_t *nearest = MR_NEW(ctx, samples, uint32_t);
 	double *distance = MR_NEW(ctx, samples, double);
@@ -90,7 +90,6 @@ mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size
 	}
 	gaps->surface = mr_gap_of(distance, n);
 	gaps->bare = n ? (double)bare / (double)n : 0;
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -157,7 +156,7 @@ mr_gaps_add(
 void
 mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples, mr_mesh_gaps *gaps)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double off = OFF * mr_mesh_diagonal(mesh);
 	mr_mesh_gaps g = { .widest = 0 };
 	mr_bvh *bvh, *bvh_mesh;
@@ -167,7 +166,6 @@ mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t
 	mr_gaps_add(ctx, mesh, bvh, samples, off, &g);
 	mr_gaps_add(ctx, surface, bvh_mesh, samples, off, &g);
 	*gaps = g;
-	mr_mark_release(ctx, mark);
 }
 
 void

@@ -20,7 +20,7 @@ corner_at(const mr_mesh *m, uint32_t h, uint32_t v)
 static void
 count_components(mr_ctx *ctx, const mr_mesh *m, mr_census *c, size_t *used)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *parent = mr_sets_new(ctx, m->nv);
 	unsigned char *state = MR_NEW_ZERO(ctx, m->nv, unsigned char); /* 1: in a face; 2: in a proper one */
 
@@ -39,7 +39,6 @@ count_components(mr_ctx *ctx, const mr_mesh *m, mr_census *c, size_t *used)
 		c->isolated_vertices += state[v] == 0;
 		c->components += state[v] == 2 && mr_sets_root(parent, v) == v;
 	}
-	mr_mark_release(ctx, mark);
 }
 
 static void
@@ -57,20 +56,19 @@ join_corners(const mr_mesh *m, const mr_edges *edges, uint32_t *fan)
 static void
 count_fans(mr_ctx *ctx, const mr_mesh *m, uint32_t *fan, mr_census *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *fans = MR_NEW_ZERO(ctx, m->nv, uint32_t);
 
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		if (!mr_face_repeats(m, h / 3) && fan[h] == h)
 			c->nonmanifold_vertices += ++fans[mr_he_from(m, h)] == 2;
-	mr_mark_release(ctx, mark);
 }
 
 /* Boundary edges of one fan belong to one loop: each fan keeps the first it meets. */
 static void
 count_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *fan, mr_census *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *first = MR_NEW(ctx, 3 * m->nf, uint32_t), *loop = mr_sets_new(ctx, c->boundary_edges),
 		 n = 0;
 
@@ -89,19 +87,17 @@ count_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *fan,
 	}
 	for (uint32_t i = 0; i < n; i++)
 		c->boundary_loops += mr_sets_root(loop, i) == i;
-	mr_mark_release(ctx, mark);
 }
 
 static void
 count_fans_and_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *fan = mr_sets_new(ctx, 3 * m->nf);
 
 	join_corners(m, edges, fan);
 	count_fans(ctx, m, fan, c);
 	count_loops(ctx, m, edges, fan, c);
-	mr_mark_release(ctx, mark);
 }
 
 static void
@@ -121,13 +117,12 @@ count_edges(const mr_mesh *m, const mr_edges *edges, mr_census *c)
 static void
 count_duplicates(mr_ctx *ctx, const mr_mesh *m, mr_census *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_incidence around;
 
 	mr_incidence_build(ctx, m, &around);
 	for (uint32_t f = 0; f < m->nf; f++)
 		c->duplicate_faces += !mr_face_repeats(m, f) && mr_face_is_repeated(m, &around, f);
-	mr_mark_release(ctx, mark);
 }
 
 static void
@@ -203,12 +198,11 @@ edge_lengths(void *arg, size_t begin, size_t end)
 static void
 measure_edges(mr_ctx *ctx, job *j, mr_geometry *g)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 
 	j->value = MR_NEW(ctx, j->edges->count, double);
 	mr_parallel(ctx, j->edges->count, 4096, edge_lengths, j);
 	g->edge = mr_spread_of(j->value, j->edges->count);
-	mr_mark_release(ctx, mark);
 }
 
 static void
@@ -236,7 +230,7 @@ face_angles(void *arg, size_t begin, size_t end)
 static void
 measure_angles(mr_ctx *ctx, job *j, mr_geometry *g)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double low = INFINITY, high = -INFINITY, sum = 0;
 	size_t n = 0;
 
@@ -254,7 +248,6 @@ measure_angles(mr_ctx *ctx, job *j, mr_geometry *g)
 	g->angle_min = n ? low : NAN;
 	g->angle_max = n ? high : NAN;
 	g->angle_error = n ? sum / (double)n : NAN;
-	mr_mark_release(ctx, mark);
 }
 
 void
@@ -271,7 +264,7 @@ mr_mark_boundary(const mr_mesh *m, const mr_edges *edges, bool *boundary)
 static void
 measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *valence = MR_NEW_ZERO(ctx, j->m->nv, uint32_t);
 	bool *boundary = MR_NEW(ctx, j->m->nv, bool);
 	size_t used = 0, regular = 0;
@@ -287,7 +280,6 @@ measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
 		regular += valence[v] == (boundary[v] ? 4 : 6);
 	}
 	g->valence6 = used ? (double)regular / (double)used : NAN;
-	mr_mark_release(ctx, mark);
 }
 
 void
@@ -334,7 +326,7 @@ measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud_figures *c)
 mr_status
 mr_measure_points(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud_figures *out)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_cloud_figures c = { .points = n, .spacing = { NAN, NAN, NAN, NAN } };
 	mr_v3 *finite = MR_NEW(ctx, n, mr_v3);
 	mr_sampling found;
@@ -349,7 +341,6 @@ mr_measure_points(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *samp
 	c.usual = c.area = c.evenness = c.noise = c.noise_spacing = c.noise_diagonal = NAN;
 	MR_TRY(mr_sampling_find(ctx, finite, count, count == n ? sampling : NULL, &found));
 	measure_sampling(ctx, &found, &c);
-	mr_mark_release(ctx, mark);
 	*out = c;
 	return MR_OK;
 }

@@ -27,7 +27,7 @@ tidy(double ratio)
 static void
 measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenness *out)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *area = MR_NEW(ctx, m->nv, double), error = 0;
 	bool *boundary = MR_NEW(ctx, m->nv, bool);
 	mr_spread s;
@@ -40,7 +40,6 @@ measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenne
 		error += fabs(area[i] - s.mean);
 	*out = (mr_evenness){ n, s.mean, n ? tidy(error / ((double)n * s.mean)) : NAN,
 		tidy(s.deviation / s.mean * (s.deviation / s.mean)) };
-	mr_mark_release(ctx, mark);
 }
 
 mr_status

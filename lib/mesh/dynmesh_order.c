@@ -6,7 +6,7 @@
 static void
 permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	char *copy, *to = array;
 
 	if (!array)
@@ -16,7 +16,6 @@ permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
 	for (size_t i = 0; i < n; i++)
 		if (number[i] != MR_NONE)
 			memcpy(to + number[i] * size, copy + i * size, size);
-	mr_mark_release(ctx, mark);
 }
 
 static void
@@ -85,7 +84,7 @@ lowest(const mr_dyn *d, size_t f)
 static void
 number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *next = MR_NEW_ZERO(ctx, d->nv + 1, uint32_t);
 
 	for (size_t f = 0; f < d->nf; f++)
@@ -94,13 +93,12 @@ number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 		next[v + 1] += next[v];
 	for (size_t f = 0; f < d->nf; f++)
 		number[f] = next[lowest(d, f)]++;
-	mr_mark_release(ctx, mark);
 }
 
 void
 mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *number = MR_NEW(ctx, d->nv > d->nf ? d->nv : d->nf, uint32_t),
 		 *order = MR_NEW(ctx, d->nv, uint32_t);
 
@@ -110,5 +108,4 @@ mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
 	permute_vertices(ctx, d, number);
 	number_faces(ctx, d, number);
 	permute_faces(ctx, d, d->nv, number);
-	mr_mark_release(ctx, mark);
 }

@@ -92,7 +92,7 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 {
 	mr_edges e = { 0, NULL, MR_NEW(ctx, 3 * m->nf, uint32_t) };
 	uint32_t *start = MR_NEW(ctx, 3 * m->nf + 1, uint32_t);
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	table t = { MR_NEW(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, spoke) };
 
 	fill(m, &t);
@@ -105,7 +105,6 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 		}
 	start[e.count] = t.start[m->nv];
 	e.start = start;
-	mr_mark_release(ctx, mark);
 	*out = e;
 }
 

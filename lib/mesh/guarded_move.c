@@ -62,7 +62,7 @@ hold_corners(move *w)
 mr_status
 mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	move w = { guard, from, to, MR_NEW(ctx, guard->nf, bool), MR_NEW(ctx, guard->nf, bool),
 		MR_NEW(ctx, guard->nv, bool), 0 };
 
@@ -73,7 +73,6 @@ mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to
 		mr_parallel(ctx, guard->nf, GRAIN, judge, &w);
 		any = hold_corners(&w);
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

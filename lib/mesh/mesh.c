@@ -90,14 +90,13 @@ mr_status
 mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo)
 {
 	mr_topology r = { MR_NEW(ctx, 3 * m->nf, uint32_t), MR_NEW(ctx, m->nv, uint32_t) };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_edges edges;
 
 	MR_TRY(check_corners(ctx, m));
 	mr_edges_build(ctx, m, &edges);
 	MR_TRY(match_twins(ctx, m, &edges, r.twin));
 	MR_TRY(choose_out(ctx, m, &r));
-	mr_mark_release(ctx, mark);
 	*topo = r;
 	return MR_OK;
 }
@@ -141,7 +140,7 @@ mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 {
 	size_t *start = MR_NEW(ctx, m->nv + 1, size_t), n = 0;
 	uint32_t *adj = MR_NEW(ctx, 6 * m->nf, uint32_t);
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_incidence inc;
 
 	mr_incidence_build(ctx, m, &inc);
@@ -157,7 +156,6 @@ mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 		n = first + mr_sort_unique(adj + first, n - first);
 	}
 	start[m->nv] = n;
-	mr_mark_release(ctx, mark);
 	*a = (mr_adjacency){ start, adj };
 }
 
@@ -345,7 +343,7 @@ mr_area_normals(mr_ctx *ctx, const mr_mesh *m)
 void
 mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	normals_job j = { m, inc, MR_NEW(ctx, m->nf, face_normal), normal };
 	mr_incidence own;
 
@@ -355,5 +353,4 @@ mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 
 	}
 	mr_parallel(ctx, m->nf, 4096, normals_of_faces, &j);
 	mr_parallel(ctx, m->nv, 4096, normals_of_vertices, &j);
-	mr_mark_release(ctx, mark);
 }

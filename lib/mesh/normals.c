@@ -104,7 +104,7 @@ void
 mr_turn_normals(mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p, mr_v3 *normal, mr_v3 *corner)
 {
 	enum { GRAIN = 1024 };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	turning j = { before, p, NULL, MR_NEW(ctx, before->nf, turn), NULL, normal };
 	mr_incidence around;
 	mr_v3 *was;
@@ -121,5 +121,4 @@ mr_turn_normals(mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p, mr_v3 *norma
 		j.to = corner;
 		mr_parallel(ctx, 3 * before->nf, GRAIN, turn_corners, &j);
 	}
-	mr_mark_release(ctx, mark);
 }

@@ -204,7 +204,7 @@ mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size
 {
 	point small[32];
 	polygon g = { .corner = corner, .n = n, .q = small };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_v3 normal = newell(p, corner, n);
 	size_t first;
 
@@ -217,7 +217,6 @@ mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size
 	else
 		ears(ctx, &g, t);
 	put_first(t, n - 2);
-	mr_mark_release(ctx, mark);
 }
 
 /* ---- triangles back to polygons ---- */

@@ -45,11 +45,10 @@ static void
 keep_faces(surface *s)
 {
 	mr_incidence around;
-	mr_mark mark;
 
 	s->t = MR_NEW(s->ctx, s->m->nf, mr_tri);
 	s->face_of = MR_NEW(s->ctx, s->m->nf, uint32_t);
-	mark = mr_mark_take(s->ctx);
+	MR_SCOPE(s->ctx);
 	mr_incidence_build(s->ctx, s->m, &around);
 	for (uint32_t f = 0; f < s->m->nf; f++) {
 		if (degenerate(s->m, f)) {
@@ -61,7 +60,6 @@ keep_faces(surface *s)
 			s->face_of[s->nf++] = f;
 		}
 	}
-	mr_mark_release(s->ctx, mark);
 }
 
 /* ---- edges ---- */
@@ -104,7 +102,7 @@ by_angle(const void *a, const void *b)
 static void
 join_wedges(surface *s, const uint32_t *he, size_t n)
 {
-	mr_mark mark = mr_mark_take(s->ctx);
+	MR_SCOPE(s->ctx);
 	leaf *l = MR_NEW(s->ctx, n, leaf);
 	uint32_t f = from(s, he[0]), t = to(s, he[0]), a = f < t ? f : t, b = f < t ? t : f;
 	mr_v3 o = s->m->p[a], axis = mr_unit(mr_sub(s->m->p[b], o)), x = { 0, 0, 0 }, y;
@@ -129,7 +127,6 @@ join_wedges(surface *s, const uint32_t *he, size_t n)
 		if (from(s, l[k].h) == a && from(s, before.h) != a && before.angle != l[k].angle)
 			join(s, l[k].h, before.h);
 	}
-	mr_mark_release(s->ctx, mark);
 }
 
 static void
@@ -243,7 +240,7 @@ orient_part(const surface *s, const uint32_t *face, size_t n, bool closed, bool 
 static void
 orient(surface *s)
 {
-	mr_mark mark = mr_mark_take(s->ctx);
+	MR_SCOPE(s->ctx);
 	bool *seen = MR_NEW_ZERO(s->ctx, s->nf, bool), *turned = MR_NEW_ZERO(s->ctx, s->nf, bool);
 	uint32_t *face = MR_NEW(s->ctx, s->nf, uint32_t);
 	bool closed;
@@ -258,7 +255,6 @@ orient(surface *s)
 	for (uint32_t f = 0; f < s->nf; f++)
 		if (turned[f])
 			turn(s, f);
-	mr_mark_release(s->ctx, mark);
 }
 
 /* ---- vertices ---- */

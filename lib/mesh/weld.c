@@ -85,7 +85,7 @@ add(mr_ctx *ctx, weld *w, mr_v3 p)
 void
 mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double span = mr_box_diagonal(mr_box_of(p, n));
 	weld w = { .eps = eps > 1e-14 * span ? eps : 0, .mask = 31 };
 
@@ -98,6 +98,5 @@ mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t
 		map[i] = (uint32_t)w.used;
 		add(ctx, &w, p[i]);
 	}
-	mr_mark_release(ctx, mark);
 	*count = w.used;
 }

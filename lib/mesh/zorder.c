@@ -98,7 +98,7 @@ sort_cells(mr_ctx *ctx, const mr_v3 *p, const uint32_t *key, size_t n, uint32_t 
 void
 mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *key = MR_NEW(ctx, n, uint32_t), *other = MR_NEW(ctx, n, uint32_t);
 	mr_box box = mr_box_of(p, n);
 	mr_v3 size = mr_sub(box.max, box.min);
@@ -114,17 +114,15 @@ mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 	sort_digit(key, 1, order, n, other);
 	sort_digit(key, 2, other, n, order);
 	sort_cells(ctx, p, key, n, order);
-	mr_mark_release(ctx, mark);
 }
 
 void
 mr_zorder_points(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_v3 *sorted)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *order = MR_NEW(ctx, n, uint32_t);
 
 	mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order);
 	for (size_t i = 0; i < n; i++)
 		sorted[i] = p[order[i]];
-	mr_mark_release(ctx, mark);
 }

@@ -25,7 +25,7 @@ void
 mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area)
 {
 	enum { BATCH = 1 << 17 };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t room = m->nf < BATCH ? m->nf : BATCH;
 	corners_job j = { m, 0, mr_alloc(ctx, room, sizeof *j.part) };
 
@@ -37,5 +37,4 @@ mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area)
 			for (int k = 0; k < 3; k++)
 				area[m->t[j.first + i].v[k]] += j.part[i][k];
 	}
-	mr_mark_release(ctx, mark);
 }

@@ -104,7 +104,7 @@ is_summit(const search *w, uint32_t v, crowd *c)
 void
 mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	search w = { d, s, MR_NEW(ctx, d->nv, double), MR_NEW(ctx, d->nv, double) };
 	crowd c = { .stamp = MR_NEW_ZERO(ctx, d->nv, uint32_t) };
 
@@ -116,5 +116,4 @@ mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)
 			d->kind[v] = MR_CORNER;
 			d->at[v] = d->out[v];
 		}
-	mr_mark_release(ctx, mark);
 }

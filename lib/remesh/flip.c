@@ -143,12 +143,11 @@ glide_dislocations(flipper *w, unsigned reach)
 void
 mr_regularize(mr_ctx *ctx, mr_dyn *d, unsigned reach, size_t *flips)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	flipper w = { d, MR_NEW(ctx, d->nv, int) };
 
 	mr_parallel(ctx, d->nv, 4096, excess_body, &w);
 	*flips = flip_gaining(&w);
 	if (reach > 0)
 		*flips += glide_dislocations(&w, reach < REACH_MAX ? reach : REACH_MAX);
-	mr_mark_release(ctx, mark);
 }

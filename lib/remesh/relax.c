@@ -82,11 +82,10 @@ find_areas(mr_ctx *ctx, areas_job w)
 void
 mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double unit, double *area)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	float *part = MR_NEW(ctx, 3 * d->nf, float);
 
 	find_areas(ctx, (areas_job){ d, unit * unit, part, area });
-	mr_mark_release(ctx, mark);
 }
 
 /* a^e, quick for the exponents that there are by default. */
@@ -291,7 +290,7 @@ one_pass(mr_ctx *ctx, mr_dyn *d, pass *w)
 mr_status
 mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts *o)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	pass w = { .d = d, .s = s, .o = o };
 
 	pass_new(ctx, &w);
@@ -300,6 +299,5 @@ mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts 
 		MR_TRY(one_pass(ctx, d, &w));
 		mr_parallel(ctx, d->nv, GRAIN, arrive_body, &w);
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

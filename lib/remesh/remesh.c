@@ -47,7 +47,7 @@ static void
 area_variance(remesher *r, double *variance)
 {
 	const mr_dyn *d = &r->d;
-	mr_mark mark = mr_mark_take(r->ctx);
+	MR_SCOPE(r->ctx);
 	double *area, sum = 0, squares = 0, n = 0;
 
 	area = MR_NEW(r->ctx, d->nv, double);
@@ -61,7 +61,6 @@ area_variance(remesher *r, double *variance)
 			n++;
 		}
 	*variance = sum > 0 ? n * squares / (sum * sum) - 1 : 0;
-	mr_mark_release(r->ctx, mark);
 }
 
 /*

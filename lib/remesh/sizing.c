@@ -170,7 +170,7 @@ void
 mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
     double shortest, double longest, double *length)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	sums s = { MR_NEW_ZERO(ctx, m->nv, mr_v3), MR_NEW_ZERO(ctx, m->nv, double),
 		MR_NEW(ctx, m->nv, double) };
 	grader w = { .ctx = ctx, .m = m, .length = length };
@@ -181,5 +181,4 @@ mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr
 	for (uint32_t v = 0; v < m->nv; v++)
 		length[v] = length_for(largest_curvature(d, &s, v), error, shortest, longest);
 	grade(&w, topo);
-	mr_mark_release(ctx, mark);
 }

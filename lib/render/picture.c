@@ -205,12 +205,11 @@ draw_frame(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, const mr_shown
     const mr_render_opts *o, mr_image *image)
 {
 	for (size_t i = 0; i < f->count; i++) {
-		mr_mark mark = mr_mark_take(ctx);
+		MR_SCOPE(ctx);
 		mr_image panel;
 		MR_TRY(mr_image_new(ctx, o->width, o->height, PAPER, &panel));
 		draw_panel(ctx, g, shot, f->first + i, f->count > 1, o, &panel);
 		mr_image_copy(image, x + i * o->width, y, &panel);
-		mr_mark_release(ctx, mark);
 	}
 	return MR_OK;
 }

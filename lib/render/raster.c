@@ -216,7 +216,7 @@ covering_radius(const mr_raster_view *v)
 void
 mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_raster_view v = { .subject = subject, .camera = camera, .wire = wire, .image = image };
 
 	v.w = image->width * SAMPLES;
@@ -230,5 +230,4 @@ mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool 
 	fill_bands(ctx, &v);
 	mr_parallel(ctx, (v.h + BAND - 1) / BAND, 1, draw_bands, &v);
 	mr_shade(ctx, &v);
-	mr_mark_release(ctx, mark);
 }

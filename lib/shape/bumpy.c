@@ -161,7 +161,7 @@ relax_body(void *arg, size_t begin, size_t end)
 static void
 relax(mr_ctx *ctx, const mr_mesh *m, mr_v3 *p, int rounds)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_v3 *other = MR_NEW(ctx, m->nv, mr_v3);
 	mr_adjacency a;
 
@@ -170,7 +170,6 @@ relax(mr_ctx *ctx, const mr_mesh *m, mr_v3 *p, int rounds)
 		relaxing r = { &a, i % 2 ? other : p, i % 2 ? p : other };
 		mr_parallel(ctx, m->nv, 1024, relax_body, &r);
 	}
-	mr_mark_release(ctx, mark);
 }
 
 static void

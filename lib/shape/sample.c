@@ -23,7 +23,7 @@ mr_status
 mr_surface_sample(mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr_v3 **points, mr_v3 **normals)
 {
 	mr_v3 *p = MR_NEW(ctx, count, mr_v3), *normal = MR_NEW(ctx, count, mr_v3);
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *sum = MR_NEW(ctx, m->nf, double), total = 0;
 	mr_random r = { seed };
 
@@ -38,7 +38,6 @@ mr_surface_sample(mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr
 		p[i] = mr_place_point(m, (mr_place){ (uint32_t)f, mr_vec(1 - a, a * (1 - b), a * b) });
 		normal[i] = mr_unit(mr_face_cross(m, f));
 	}
-	mr_mark_release(ctx, mark);
 	*points = p;
 	*normals = normal;
 	return MR_OK;

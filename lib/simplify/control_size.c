@@ -10,8 +10,8 @@ enum { ROUNDS = 4 };
  * them, and a fit to points as few would have to blow them up.
  */
 enum { POINTS_A_FACE = 32, LIMBS = 300, LEAST_POINTS_A_FACE = 4, ROUND = 20 };
-/* With at most 16 points a face level 3 has at most twice as many vertices as there are points; a surface that
- * needs more, thin or jagged, has so many that level 2 has more vertices than points. */
+/* With at most 16 points a face level 3 has at most twice as many vertices as there are points; a surface
+ * that needs more, thin or jagged, has so many that level 2 has more vertices than points. */
 enum { MOST_POINTS_A_FACE = 17, FINE_POINTS_A_FACE = 5 };
 
 /* Densities beyond these shares of the mean are cut off: gaps and outliers are no surface. */
@@ -21,7 +21,7 @@ static const double LEAST = 0.1, MOST = 10;
 static void
 spread(mr_ctx *ctx, const mr_mesh *m, double *value)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *sum = MR_NEW(ctx, m->nv, double), *corners = MR_NEW(ctx, m->nv, double);
 
 	for (int round = 0; round < ROUNDS; round++) {
@@ -38,7 +38,6 @@ spread(mr_ctx *ctx, const mr_mesh *m, double *value)
 		for (size_t v = 0; v < m->nv; v++)
 			value[v] = corners[v] > 0 ? sum[v] / corners[v] : 1;
 	}
-	mr_mark_release(ctx, mark);
 }
 
 static size_t
@@ -78,7 +77,7 @@ mr_simplify_fine_faces_for(size_t n)
 mr_status
 mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, double *weight)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	const mr_sampling *s = &c->sampling;
 	uint32_t *nearest = MR_NEW(ctx, m->nv, uint32_t);
 	double mean = s->area / (double)(s->places - s->outliers);
@@ -89,6 +88,5 @@ mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, dou
 		weight[v] = own > 0 ? fmin(fmax(mean / (own * own), LEAST), MOST) : 1;
 	}
 	spread(ctx, m, weight);
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -51,7 +51,7 @@ mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_
 {
 	uint32_t *face = MR_NEW(ctx, out->nv, uint32_t);
 	mr_v3 *bary = MR_NEW(ctx, out->nv, mr_v3);
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_v3 *normal = MR_NEW(ctx, out->nv, mr_v3);
 	uint32_t *nearest = MR_NEW(ctx, out->nv, uint32_t);
 	mr_topology topo;
@@ -72,7 +72,6 @@ mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_
 	mr_bvh_build(ctx, m, &bvh);
 	mr_parallel(
 	    ctx, out->nv, 1024, place_body, &(place_job){ m, &topo, bvh, out, normal, nearest, face, bary });
-	mr_mark_release(ctx, mark);
 	*map = (mr_places){ face, bary };
 	return MR_OK;
 }

@@ -49,7 +49,7 @@ cholesky_drop(void *data)
 static mr_status
 analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const int *part)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	int *order = MR_NEW(ctx, a->nrow, int), *member = MR_NEW(ctx, a->nrow, int);
 
 	c->common.supernodal = CHOLMOD_SUPERNODAL;
@@ -63,7 +63,6 @@ analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const int *part)
 		MR_TRY(check(ctx, c));
 	}
 	c->factor = cholmod_analyze_p(a, part ? order : NULL, NULL, 0, &c->common);
-	mr_mark_release(ctx, mark);
 	return check(ctx, c);
 }
 

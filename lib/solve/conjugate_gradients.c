@@ -11,7 +11,7 @@ mr_cg_apply(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x,
 mr_status
 mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterations)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_multivector s = g->s;
 	double *p = MR_NEW_ZERO(ctx, s.n * s.width, double), *q = MR_NEW(ctx, s.n * s.width, double);
 	double rz[MR_WIDTH], last[MR_WIDTH] = { 0 }, pq[MR_WIDTH], rr[MR_WIDTH], f[MR_WIDTH], goal[MR_WIDTH];
@@ -41,6 +41,5 @@ mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterati
 			break;
 		mr_multivector_step(ctx, s, f, p, q, x, r, rr); /* x += alpha p, r -= alpha q */
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

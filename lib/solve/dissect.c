@@ -143,7 +143,7 @@ dissect(dissection *d, int begin, int end)
 void
 mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	dissection d = { .l = l,
 		.p = p,
 		.n = (int)n,
@@ -157,5 +157,4 @@ mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t rea
 	for (int i = 0; i < d.n; i++)
 		d.order[i] = i;
 	dissect(&d, 0, d.n);
-	mr_mark_release(ctx, mark);
 }

@@ -72,17 +72,16 @@ krylov_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_repor
 {
 	krylov *k = data;
 	size_t n = (size_t)k->a->n;
-	mr_mark mark = mr_mark_take(ctx);
 
 	report->iterations = 0;
 	report->residual = 0;
 	for (size_t c = 0; c < columns; c += MR_WIDTH) {
+		MR_SCOPE(ctx);
 		mr_multivector s = { n, columns - c < MR_WIDTH ? columns - c : MR_WIDTH };
 		double *rows = MR_NEW(ctx, n * s.width, double), *x = MR_NEW(ctx, n * s.width, double);
 		mr_multivector_gather(s, b + c * n, rows);
 		MR_TRY(solve_rows(ctx, k, s, rows, x, report));
 		mr_multivector_scatter(s, x, b + c * n);
-		mr_mark_release(ctx, mark);
 	}
 	return MR_OK;
 }
@@ -107,7 +106,7 @@ cycle_iterate(
     mr_ctx *ctx, krylov *k, mr_multivector s, const double *goal, double *x, double *r, size_t *iterations)
 {
 	static const double minus[MR_WIDTH] = { -1, -1, -1, -1 }, most = 1e6;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t size = s.n * s.width;
 	double *z = MR_NEW(ctx, size, double), *q = MR_NEW(ctx, size, double), rr[MR_WIDTH], begun[MR_WIDTH];
 
@@ -125,7 +124,6 @@ cycle_iterate(
 		if (diverges)
 			break;
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

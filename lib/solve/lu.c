@@ -74,7 +74,7 @@ lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *r
 {
 	lu *l = data;
 	size_t n = l->n;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *x = MR_NEW(ctx, n, double), info[UMFPACK_INFO];
 
 	(void)report;
@@ -83,7 +83,6 @@ lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *r
 		    ctx, umfpack_di_solve(UMFPACK_At, NULL, NULL, NULL, x, b, l->numeric, l->control, info)));
 		memcpy(b, x, n * sizeof *b);
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

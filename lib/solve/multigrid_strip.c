@@ -59,15 +59,12 @@ strip_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *
 static mr_status
 factor_strip(mr_ctx *ctx, strip *t)
 {
-	mr_mark mark;
 	mr_sparse lower;
 
 	t->exact = mr_solver_new(ctx);
-	mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_sparse_restrict(ctx, t->a, t->row, t->n, true, &lower);
-	MR_TRY(mr_solver_direct(ctx, t->exact, MR_CHOLESKY, &lower, NULL));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_solver_direct(ctx, t->exact, MR_CHOLESKY, &lower, NULL);
 }
 
 static void

@@ -22,14 +22,13 @@ mr_sparse_restrict(mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t 
 	mr_sparse r = { .n = (int)n, .start = MR_NEW(ctx, n + 1, int) };
 	size_t most = 0;
 	uint32_t *number;
-	mr_mark mark;
 	int at = 0;
 
 	for (size_t i = 0; i < n; i++)
 		most += (size_t)(a->start[row[i] + 1] - a->start[row[i]]);
 	r.index = MR_NEW(ctx, most, int);
 	r.value = MR_NEW(ctx, most, double);
-	mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	number = MR_NEW(ctx, (size_t)a->n, uint32_t);
 	memset(number, 0xff, (size_t)a->n * sizeof *number);
 	for (uint32_t i = 0; i < n; i++)
@@ -43,7 +42,6 @@ mr_sparse_restrict(mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t 
 			}
 	}
 	r.start[n] = at;
-	mr_mark_release(ctx, mark);
 	*out = r;
 }
 
@@ -53,7 +51,7 @@ mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *
 	size_t nnz = (size_t)a->start[a->n];
 	mr_sparse r = { (int)columns, MR_NEW_ZERO(ctx, columns + 1, int), MR_NEW(ctx, nnz, int),
 		MR_NEW(ctx, nnz, double) };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	int *next = MR_NEW(ctx, columns, int);
 
 	for (size_t e = 0; e < nnz; e++)
@@ -66,7 +64,6 @@ mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *
 			r.index[to] = i;
 			r.value[to] = a->value[e];
 		}
-	mr_mark_release(ctx, mark);
 	*t = r;
 	return MR_OK;
 }

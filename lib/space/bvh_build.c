@@ -278,7 +278,7 @@ mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 	mr_bvh *bvh = MR_NEW(ctx, 1, mr_bvh);
 	mr_bvh_node *nodes = MR_NEW(ctx, bvh_node_bound(m->nf), mr_bvh_node);
 	uint32_t *face = MR_NEW(ctx, m->nf, uint32_t);
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	builder b = { .prims = MR_NEW(ctx, m->nf, prim), .tasks = MR_NEW(ctx, m->nf / BVH_LEAF + 1, task) };
 	size_t next = 0;
 
@@ -293,6 +293,5 @@ mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 		for (size_t i = 0; i < m->nf; i++)
 			face[i] = b.prims[i].face;
 	}
-	mr_mark_release(ctx, mark);
 	*out = bvh;
 }

@@ -32,14 +32,13 @@ static void
 number_sets(mr_ctx *ctx, uint32_t *parent, const uint32_t *vertex, size_t n, mr_connected *c)
 {
 	mr_connected r = { .part = MR_NEW(ctx, n, uint32_t) };
-	mr_mark mark;
 	uint32_t *at;
 	set *s;
 
 	for (uint32_t i = 0; i < n; i++)
 		r.parts += parent[i] == i;
 	r.size = MR_NEW(ctx, r.parts, size_t);
-	mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	s = MR_NEW(ctx, r.parts, set);
 	at = MR_NEW(ctx, n, uint32_t);
 	r.parts = 0;
@@ -59,7 +58,6 @@ number_sets(mr_ctx *ctx, uint32_t *parent, const uint32_t *vertex, size_t n, mr_
 	}
 	for (uint32_t i = 0; i < n; i++)
 		r.part[vertex ? vertex[i] : i] = at[mr_sets_root(parent, i)];
-	mr_mark_release(ctx, mark);
 	*c = r;
 }
 

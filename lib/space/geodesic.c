@@ -103,7 +103,7 @@ void
 mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t face, mr_v3 source,
     double reach, double *distance)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	march j = { m, source, distance, { 0 } };
 
 	for (size_t v = 0; v < m->nv; v++)
@@ -125,17 +125,15 @@ mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_
 	for (size_t v = 0; v < m->nv; v++)
 		if (distance[v] > reach)
 			distance[v] = INFINITY;
-	mr_mark_release(ctx, mark);
 }
 
 void
 mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_closest source = nearest_point(m, p);
 	mr_incidence inc;
 
 	mr_incidence_build(ctx, m, &inc);
 	mr_geodesic_from(ctx, m, &inc, source.at.face, source.point, reach, distance);
-	mr_mark_release(ctx, mark);
 }

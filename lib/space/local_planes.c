@@ -215,7 +215,7 @@ mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, b
 		.area = MR_NEW(ctx, n, double),
 		.neighbor = MR_NEW(ctx, n * links, uint32_t),
 		.links = links };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_near *near = NULL;
 
 	if (k < 3 || k > MOST || links >= k)
@@ -223,7 +223,6 @@ mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, b
 		    links, MOST);
 	MR_TRY(mr_near_build(ctx, p, n, &near));
 	MR_TRY(fit_all(ctx, near, p, n, k, around, &r));
-	mr_mark_release(ctx, mark);
 	*out = r;
 	return MR_OK;
 }

@@ -38,7 +38,7 @@ check(mr_ctx *ctx, const char *what, const mr_v3 *p, size_t n)
 static size_t
 find_rows(mr_ctx *ctx, const mr_v3 *p, size_t n, bool distinct, uint32_t *original)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *map = MR_NEW(ctx, n, uint32_t), used = 0;
 	size_t rows;
 
@@ -47,7 +47,6 @@ find_rows(mr_ctx *ctx, const mr_v3 *p, size_t n, bool distinct, uint32_t *origin
 	for (uint32_t i = 0; i < n; i++)
 		if (distinct || map[i] == used)
 			original[used++] = i;
-	mr_mark_release(ctx, mark);
 	return used;
 }
 
@@ -153,7 +152,7 @@ mr_status
 mr_near_query(
     mr_ctx *ctx, const mr_near *near, const mr_v3 *q, size_t nq, size_t k, uint32_t *index, double *dist2)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t found = k < near->rows ? k : near->rows, chunk = CHUNK / (k / 8 + 1) + 1;
 	size_t *row = MR_NEW(ctx, chunk * found, size_t);
 	double *d = MR_NEW(ctx, chunk * found, double);
@@ -167,7 +166,6 @@ mr_near_query(
 			return mr_fail(
 			    ctx, MR_EMEM, "no memory for %zu nearest points of %zu queries", found, n);
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -175,11 +173,9 @@ mr_status
 mr_near_once(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_v3 *q, size_t nq, size_t k, uint32_t *index,
     double *dist2)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_near *near;
 
 	MR_TRY(mr_near_build(ctx, p, n, &near));
-	MR_TRY(mr_near_query(ctx, near, q, nq, k, index, dist2));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_near_query(ctx, near, q, nq, k, index, dist2);
 }

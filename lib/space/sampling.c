@@ -54,12 +54,11 @@ typedef struct cloud {
 static void
 find_places(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *place, uint8_t *repeat, cloud *c)
 {
-	mr_mark mark;
 	uint32_t *order;
 
 	c->p = MR_NEW(ctx, n, mr_v3);
 	c->n = 0;
-	mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	order = MR_NEW(ctx, n, uint32_t);
 	mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order);
 	for (size_t i = 0; i < n; i++) {
@@ -69,14 +68,13 @@ find_places(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *place, uint8_t *rep
 			c->p[c->n++] = q;
 		place[order[i]] = (uint32_t)(c->n - 1);
 	}
-	mr_mark_release(ctx, mark);
 }
 
 /* c->nearest and c->spacing. */
 static mr_status
 find_spacing(mr_ctx *ctx, cloud *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t chunk = c->n < CHUNK ? c->n : CHUNK, k = c->around + 1;
 	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
 	double *dist2 = MR_NEW(ctx, chunk * k, double);
@@ -90,7 +88,6 @@ find_spacing(mr_ctx *ctx, cloud *c)
 			c->spacing[first + i] = sqrt(mr_own_area(dist2 + i * k + 1, c->around));
 		}
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -157,7 +154,7 @@ outliers_around(const cloud *c, size_t i)
 static void
 spread(mr_ctx *ctx, cloud *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint8_t *lost = MR_NEW(ctx, c->n, uint8_t);
 
 	for (int round = 0; round < ROUNDS; round++) {
@@ -165,7 +162,6 @@ spread(mr_ctx *ctx, cloud *c)
 			lost[i] = c->outlier[i] || 2 * outliers_around(c, i) > c->around;
 		memcpy(c->outlier, lost, c->n);
 	}
-	mr_mark_release(ctx, mark);
 }
 
 static bool
@@ -219,7 +215,7 @@ join_reached(const cloud *c, const bool *reached, const uint32_t *list, size_t n
 static void
 keep_sparse_ends(mr_ctx *ctx, cloud *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *list = MR_NEW(ctx, c->n, uint32_t), *region = mr_sets_new(ctx, c->n);
 	size_t *count = MR_NEW_ZERO(ctx, c->n, size_t), n;
 	double *sum = MR_NEW_ZERO(ctx, c->n, double);
@@ -237,7 +233,6 @@ keep_sparse_ends(mr_ctx *ctx, cloud *c)
 		if (sum[r] < STREWN * (double)count[r])
 			c->outlier[list[k]] = false;
 	}
-	mr_mark_release(ctx, mark);
 }
 
 static void
@@ -386,7 +381,7 @@ look_around(void *arg, size_t begin, size_t end)
 static mr_status
 look_at(mr_ctx *ctx, const cloud *c, size_t k, double *variation, double *noise)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	size_t n = c->n < SOME ? c->n : SOME;
 	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
 	uint32_t *index = MR_NEW(ctx, n * k, uint32_t);
@@ -397,7 +392,6 @@ look_at(mr_ctx *ctx, const cloud *c, size_t k, double *variation, double *noise)
 	mr_parallel(ctx, n, GRAIN, look_around, &l);
 	*variation = mr_kth(l.variation, n, n / 2);
 	*noise = mr_kth(l.residual, n, n / 2);
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -438,7 +432,7 @@ sum_up(mr_sampling *s, double *x, size_t count)
 static void
 find_figures(mr_ctx *ctx, mr_sampling *s)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *x = MR_NEW(ctx, s->n, double);
 	size_t count = 0;
 
@@ -452,7 +446,6 @@ find_figures(mr_ctx *ctx, mr_sampling *s)
 	}
 	if (count > 0)
 		sum_up(s, x, count);
-	mr_mark_release(ctx, mark);
 }
 
 /* c->p is there. */
@@ -513,7 +506,7 @@ mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorte
 {
 	double *spacing = MR_NEW(ctx, s->n, double);
 	uint8_t *outlier = MR_NEW(ctx, s->n, uint8_t), *repeat = MR_NEW(ctx, s->n, uint8_t);
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *order = MR_NEW(ctx, s->n, uint32_t);
 
 	mr_zorder(ctx, p, s->n, MR_ZORDER_CELLS, order);
@@ -523,7 +516,6 @@ mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorte
 		outlier[i] = s->outlier[order[i]];
 		repeat[i] = s->repeat[order[i]];
 	}
-	mr_mark_release(ctx, mark);
 	*of_sorted = *s;
 	of_sorted->spacing = spacing;
 	of_sorted->outlier = outlier;
@@ -536,10 +528,9 @@ mr_sampling_places(
 {
 	mr_v3 *q = MR_NEW(ctx, s->n, mr_v3), *kept;
 	uint32_t *of = MR_NEW(ctx, s->n, uint32_t), *from, *order;
-	mr_mark mark;
 	size_t n = 0;
 
-	mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	kept = MR_NEW(ctx, s->n, mr_v3);
 	from = MR_NEW(ctx, s->n, uint32_t);
 	order = MR_NEW(ctx, s->n, uint32_t);
@@ -553,7 +544,6 @@ mr_sampling_places(
 		q[i] = kept[order[i]];
 		of[i] = from[order[i]];
 	}
-	mr_mark_release(ctx, mark);
 	*place = q;
 	if (index)
 		*index = of;

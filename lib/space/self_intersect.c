@@ -344,7 +344,7 @@ void
 mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m,
     void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	search s = { .box = MR_NEW(ctx, m->nf, face_box),
 		.flat = MR_NEW(ctx, m->nf, bool),
 		.visit = visit,
@@ -361,7 +361,6 @@ mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m,
 	list_nodes(ctx, &s);
 	mr_parallel(ctx, m->nf, 4096, look_at_faces, &s);
 	mr_parallel(ctx, s.nodes, 64, cross_nodes, &s);
-	mr_mark_release(ctx, mark);
 }
 
 typedef struct counting {

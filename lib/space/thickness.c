@@ -100,7 +100,7 @@ walk_face(const mr_mesh *m, size_t f, const double length[3], double *thickness)
 static void
 walk(mr_ctx *ctx, const mr_mesh *m, double *thickness)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double(*length)[3] = mr_alloc(ctx, m->nf, sizeof *length);
 
 	for (size_t f = 0; f < m->nf; f++)
@@ -113,13 +113,12 @@ walk(mr_ctx *ctx, const mr_mesh *m, double *thickness)
 		for (size_t f = m->nf; lowered && f-- > 0;)
 			walk_face(m, f, length[f], thickness);
 	}
-	mr_mark_release(ctx, mark);
 }
 
 void
 mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3);
 	caster c = { .m = m, .normal = normal, .most = most, .across = MR_NEW(ctx, m->nf, double) };
 	mr_incidence inc;
@@ -137,5 +136,4 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	for (size_t v = 0; v < m->nv; v++)
 		thickness[v] = median_around(&inc, v, c.across, most);
 	walk(ctx, m, thickness);
-	mr_mark_release(ctx, mark);
 }

@@ -157,7 +157,7 @@ mr_unpack(mr_ctx *ctx, const mr_record *h, const void *packed, void *data)
 		.zfree = z_free,
 		.opaque = ctx,
 		.next_in = (unsigned char *)(uintptr_t)packed };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	unsigned char *planes = MR_NEW(ctx, block_bytes(h), unsigned char);
 	mr_status status;
 	int code;
@@ -165,6 +165,5 @@ mr_unpack(mr_ctx *ctx, const mr_record *h, const void *packed, void *data)
 	code = inflateInit(&z);
 	status = code == Z_OK ? inflate_blocks(ctx, &z, h, planes, data) : z_failed(ctx, "unpacking", code);
 	inflateEnd(&z);
-	mr_mark_release(ctx, mark);
 	return status;
 }

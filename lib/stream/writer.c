@@ -331,13 +331,12 @@ put(mr_ctx *ctx, mr_writer *w, const mr_frame *f)
 mr_status
 mr_writer_put(mr_ctx *ctx, mr_writer *w, const mr_frame *frame)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_status status;
 
 	MR_ENTER(ctx);
 	MR_TRY(check(ctx, w, frame));
 	status = put(ctx, w, frame);
-	mr_mark_release(ctx, mark);
 	return status;
 }
 

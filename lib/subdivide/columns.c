@@ -48,7 +48,7 @@ static mr_status
 make_corners(mr_ctx *ctx, const mr_refined *r, const mr_carried *c)
 {
 	enum { CHUNK = 1 << 14 };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t(*parent)[9] = mr_alloc(ctx, CHUNK, sizeof *parent);
 	double(*weight)[9] = mr_alloc(ctx, CHUNK, sizeof *weight);
 
@@ -62,21 +62,19 @@ make_corners(mr_ctx *ctx, const mr_refined *r, const mr_carried *c)
 		}
 		mr_carried_make(ctx, c, 3, 3 * first, (mr_rows_from){ 3 * n, 3, *parent, *weight });
 	}
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
 static mr_status
 make_faces(mr_ctx *ctx, const mr_refined *r, mr_carried *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	uint32_t *of = MR_NEW(ctx, r->fine.nf, uint32_t);
 
 	for (size_t f = 0; f < r->fine.nf; f++)
 		of[f] = corners_of(r, f).face;
 	c->kind = MR_LABEL;
 	mr_carried_make(ctx, c, 1, 0, (mr_rows_from){ r->fine.nf, 1, of, NULL });
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -85,7 +83,7 @@ static void
 by_loop(mr_ctx *ctx, const mr_refined *r, mr_carried *c)
 {
 	size_t width = c->shape.components, coarse = width * r->m.nv, fine = width * r->fine.nv;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *x, *y;
 
 	if (c->shape.type == 'd') {
@@ -99,7 +97,6 @@ by_loop(mr_ctx *ctx, const mr_refined *r, mr_carried *c)
 	mr_loop_values(ctx, r->level, r->n, width, x, y);
 	for (size_t i = 0; i < fine; i++) /* averages, so from 0 to 255 */
 		((uint8_t *)c->to)[i] = (uint8_t)(y[i] + 0.5);
-	mr_mark_release(ctx, mark);
 }
 
 /* Those by convention that go along, and all that are none by convention. */
@@ -157,10 +154,9 @@ void
 mr_refined_flat(mr_ctx *ctx, const mr_refined *r, mr_v3 *p)
 {
 	const mr_carried c = { .shape = { 'v', 'd', 3 }, .kind = MR_MEAN, .from = r->m.p, .to = p };
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_rows_from rows;
 
 	find_vertices(ctx, r, &rows);
 	mr_carried_make(ctx, &c, 1, 0, rows);
-	mr_mark_release(ctx, mark);
 }

@@ -10,12 +10,11 @@ mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n
 {
 	const mr_loop *l = &level[n];
 	mr_v3 *limit = MR_NEW(ctx, l->nv, mr_v3), *normal = MR_NEW(ctx, l->nv, mr_v3), *p;
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 
 	p = MR_NEW(ctx, l->nv, mr_v3);
 	mr_loop_values(ctx, level, n, 3, (const double *)control->p, (double *)p);
 	mr_loop_limit(ctx, l, p, limit, normal);
-	mr_mark_release(ctx, mark);
 	*d = (mr_domain){ n, level, { control->name, limit, l->t, l->nv, l->nf }, normal };
 }
 
@@ -63,14 +62,13 @@ mr_level_cache_get(mr_level_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mes
 static mr_status
 count_boundary(mr_ctx *ctx, const mr_mesh *m, size_t *n)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	mr_topology topo;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	*n = 0;
 	for (size_t h = 0; h < 3 * m->nf; h++)
 		*n += topo.twin[h] == MR_NONE;
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

@@ -329,7 +329,7 @@ mr_loop_subdivide(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine,
 void
 mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const double *in, double *out)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *work = n > 1 ? mr_alloc(ctx, level[n - 1].nv, width * sizeof *work) : NULL;
 
 	if (n == 0)
@@ -339,7 +339,6 @@ mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const 
 		mr_loop_subdivide(ctx, &level[i], &level[i + 1], width, in, next);
 		in = next;
 	}
-	mr_mark_release(ctx, mark);
 }
 
 void

@@ -40,25 +40,23 @@ reserve(mr_ctx *ctx, const mr_loop *level, size_t n, double **work)
 void
 mr_wavelet_analyse(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *work;
 
 	reserve(ctx, level, n, &work);
 	for (size_t i = n; i > 0; i--)
 		step(ctx, &level[i], -1, x, work);
-	mr_mark_release(ctx, mark);
 }
 
 void
 mr_wavelet_synthesize(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	MR_SCOPE(ctx);
 	double *work;
 
 	reserve(ctx, level, n, &work);
 	for (size_t i = 1; i <= n; i++)
 		step(ctx, &level[i], 1, x, work);
-	mr_mark_release(ctx, mark);
 }
 
 mr_status

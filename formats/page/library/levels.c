@@ -39,12 +39,11 @@ MR_EXPORT(levels_displaced)
 void
 levels_displaced(levels *l, size_t n, const mr_v3 *p, const double *height, mr_v3 *out)
 {
-	mr_mark mark = mr_mark_take(&l->ctx);
+	MR_SCOPE(&l->ctx);
 	mr_mesh control = l->control;
 	mr_domain domain;
 
 	control.p = p;
 	mr_domain_on(&l->ctx, &control, l->level, n, &domain);
 	mr_domain_displace(&l->ctx, &domain, height, 1, out);
-	mr_mark_release(&l->ctx, mark);
 }
