@@ -1,10 +1,178 @@
 /* A frame layer by layer: its columns, then the figures of its surface or cloud, then the laws. */
 #include "measure/report.h"
 
-#include "measure/report_parts.h"
 #include "mesh/validate.h"
 #include "space/sampling.h"
 #include "subdivide/displaced.h"
+
+/* ---- figures of a surface and of a cloud: tables that people and JSON get by the same names ---- */
+
+typedef enum figure_kind {
+	COUNT, /* size_t; MR_UNKNOWN is none */
+	FLAW,  /* the same; people hear of it where it is not 0 */
+	WHOLE, /* int64_t */
+	REAL,  /* double */
+	TRUTH  /* bool */
+} figure_kind;
+
+typedef struct figure {
+	const char *name;
+	figure_kind kind;
+	size_t offset;    /* in the struct */
+	const char *line; /* for people: what their next line is about; NULL: it goes on */
+} figure;
+
+#define LENGTH(array) (sizeof(array) / sizeof *(array))
+
+static void
+value(mr_text *t, const figure *f, const void *x, bool json)
+{
+	const char *none = json ? "null" : "-", *yes = json ? "true" : "yes", *no = json ? "false" : "no";
+
+	if (f->kind == REAL && json)
+		mr_text_number(t, *(const double *)x);
+	else if (f->kind == REAL)
+		mr_text_figure(t, "", 6, *(const double *)x);
+	else if (f->kind == WHOLE)
+		mr_text_add(t, "%lld", (long long)*(const int64_t *)x);
+	else if (f->kind == TRUTH)
+		mr_text_add(t, "%s", *(const bool *)x ? yes : no);
+	else if (*(const size_t *)x == MR_UNKNOWN)
+		mr_text_add(t, "%s", none);
+	else
+		mr_text_add(t, "%zu", *(const size_t *)x);
+}
+
+/* Appends ,"name":value for each of n figures of the struct at `values`. */
+static void
+figures_json(mr_text *t, const figure *table, size_t n, const void *values)
+{
+	for (size_t i = 0; i < n; i++) {
+		mr_text_add(t, ",\"%s\":", table[i].name);
+		value(t, &table[i], (const char *)values + table[i].offset, true);
+	}
+}
+
+/* A name with blanks. */
+static void
+name_text(mr_text *t, const char *name)
+{
+	for (; *name; name++)
+		mr_text_add(t, "%c", *name == '_' ? ' ' : *name);
+}
+
+/* The same in lines, of which the first figure begins one. */
+static void
+figures_text(mr_text *t, const figure *table, size_t n, const void *values)
+{
+	bool any = false;
+
+	for (size_t i = 0; i < n; i++) {
+		const void *x = (const char *)values + table[i].offset;
+		if (table[i].line) {
+			mr_text_add(t, "%s    %-14s", i == 0 ? "" : any ? "\n" : " none\n", table[i].line);
+			any = false;
+		}
+		if (table[i].kind == FLAW && *(const size_t *)x == 0)
+			continue;
+		mr_text_add(t, any ? ", " : " ");
+		name_text(t, table[i].name);
+		mr_text_add(t, " ");
+		value(t, &table[i], x, false);
+		any = true;
+	}
+	mr_text_add(t, any ? "\n" : " none\n");
+}
+
+static void
+figures(mr_text *t, const figure *table, size_t n, const void *values, bool json)
+{
+	(json ? figures_json : figures_text)(t, table, n, values);
+}
+
+static const figure surface_figures[] = {
+	{ "components", COUNT, offsetof(mr_surface_figures, census.components), "topology" },
+	{ "euler", WHOLE, offsetof(mr_surface_figures, census.euler), NULL },
+	{ "genus", COUNT, offsetof(mr_surface_figures, census.genus), NULL },
+	{ "boundary_loops", COUNT, offsetof(mr_surface_figures, census.boundary_loops), NULL },
+	{ "oriented", TRUTH, offsetof(mr_surface_figures, census.oriented), NULL },
+	{ "manifold", TRUTH, offsetof(mr_surface_figures, census.manifold), NULL },
+	{ "nonmanifold_edges", FLAW, offsetof(mr_surface_figures, census.nonmanifold_edges), "flaws" },
+	{ "nonmanifold_vertices", FLAW, offsetof(mr_surface_figures, census.nonmanifold_vertices), NULL },
+	{ "inconsistent_edges", FLAW, offsetof(mr_surface_figures, census.inconsistent_edges), NULL },
+	{ "degenerate_faces", FLAW, offsetof(mr_surface_figures, census.degenerate_faces), NULL },
+	{ "duplicate_faces", FLAW, offsetof(mr_surface_figures, census.duplicate_faces), NULL },
+	{ "isolated_vertices", FLAW, offsetof(mr_surface_figures, census.isolated_vertices), NULL },
+	{ "folded_edges", FLAW, offsetof(mr_surface_figures, census.folded_edges), NULL },
+	{ "intersecting_pairs", FLAW, offsetof(mr_surface_figures, intersections), NULL },
+	{ "diagonal", REAL, offsetof(mr_surface_figures, geometry.diagonal), "size" },
+	{ "area", REAL, offsetof(mr_surface_figures, geometry.area), NULL },
+	{ "volume", REAL, offsetof(mr_surface_figures, geometry.volume), NULL },
+	{ "edges", COUNT, offsetof(mr_surface_figures, census.edges), "edges" },
+	{ "boundary_edges", COUNT, offsetof(mr_surface_figures, census.boundary_edges), NULL },
+	{ "edge_min", REAL, offsetof(mr_surface_figures, geometry.edge.min), NULL },
+	{ "edge_mean", REAL, offsetof(mr_surface_figures, geometry.edge.mean), NULL },
+	{ "edge_max", REAL, offsetof(mr_surface_figures, geometry.edge.max), NULL },
+	{ "edge_deviation", REAL, offsetof(mr_surface_figures, geometry.edge.deviation), NULL },
+	{ "angle_min", REAL, offsetof(mr_surface_figures, geometry.angle_min), "angles" },
+	{ "angle_max", REAL, offsetof(mr_surface_figures, geometry.angle_max), NULL },
+	{ "angle_error", REAL, offsetof(mr_surface_figures, geometry.angle_error), NULL },
+	{ "valence6", REAL, offsetof(mr_surface_figures, geometry.valence6), NULL },
+	{ "interior_vertices", COUNT, offsetof(mr_surface_figures, evenness.vertices), "Voronoi areas" },
+	{ "voronoi_mean", REAL, offsetof(mr_surface_figures, evenness.mean), NULL },
+	{ "voronoi_error", REAL, offsetof(mr_surface_figures, evenness.error), NULL },
+	{ "voronoi_variance", REAL, offsetof(mr_surface_figures, evenness.variance), NULL },
+};
+
+static const figure cloud_figures[] = {
+	{ "not_finite", COUNT, offsetof(mr_cloud_figures, not_finite), "points" },
+	{ "duplicates", COUNT, offsetof(mr_cloud_figures, duplicates), NULL },
+	{ "places", COUNT, offsetof(mr_cloud_figures, places), NULL },
+	{ "outliers", COUNT, offsetof(mr_cloud_figures, outliers), NULL },
+	{ "diagonal", REAL, offsetof(mr_cloud_figures, diagonal), "size" },
+	{ "area", REAL, offsetof(mr_cloud_figures, area), NULL },
+	{ "spacing_min", REAL, offsetof(mr_cloud_figures, spacing.min), "spacing" },
+	{ "spacing_mean", REAL, offsetof(mr_cloud_figures, spacing.mean), NULL },
+	{ "spacing_max", REAL, offsetof(mr_cloud_figures, spacing.max), NULL },
+	{ "spacing_deviation", REAL, offsetof(mr_cloud_figures, spacing.deviation), NULL },
+	{ "spacing_median", REAL, offsetof(mr_cloud_figures, usual), NULL },
+	{ "evenness", REAL, offsetof(mr_cloud_figures, evenness), NULL },
+	{ "noise", REAL, offsetof(mr_cloud_figures, noise), "noise" },
+	{ "noise_spacing", REAL, offsetof(mr_cloud_figures, noise_spacing), NULL },
+	{ "noise_diagonal", REAL, offsetof(mr_cloud_figures, noise_diagonal), NULL },
+};
+
+/* Nothing has no box. */
+static void
+box(mr_text *t, const mr_box *b, bool json)
+{
+	const double x[6] = { b->min.x, b->min.y, b->min.z, b->max.x, b->max.y, b->max.z };
+
+	for (int i = 0; i < 6; i++) {
+		const char *before = i == 0 ? ",\"box\":[[" : i == 3 ? "],[" : ",";
+		if (json) {
+			mr_text_add(t, "%s", before);
+			mr_text_number(t, x[i]);
+		} else
+			mr_text_figure(t, i == 0 ? "    box            " : i == 3 ? " to " : " ", 6, x[i]);
+	}
+	mr_text_add(t, json ? "]]" : "\n");
+}
+
+/* json: members of an object, with a comma before each; else lines. */
+static void
+put_surface(mr_text *t, const mr_surface_figures *s, bool json)
+{
+	figures(t, surface_figures, LENGTH(surface_figures), s, json);
+	box(t, &s->geometry.box, json);
+}
+
+static void
+put_cloud(mr_text *t, const mr_cloud_figures *c, bool json)
+{
+	figures(t, cloud_figures, LENGTH(cloud_figures), c, json);
+	box(t, &c->box, json);
+}
 
 typedef struct report {
 	mr_ctx *ctx;
@@ -120,7 +288,7 @@ report_surface(const report *r, const char *layer)
 		mr_text_add(r->t, "  %s: %zu vertices, %zu faces\n", layer, m.nv, m.nf);
 		columns(r, layer);
 	}
-	mr_report_surface(r->t, &s, r->opts->json);
+	put_surface(r->t, &s, r->opts->json);
 	return MR_OK;
 }
 
@@ -136,7 +304,7 @@ report_cloud(const report *r, const char *layer)
 		mr_text_add(r->t, "  %s: %zu points\n", layer, c.points);
 		columns(r, layer);
 	}
-	mr_report_cloud(r->t, &c, r->opts->json);
+	put_cloud(r->t, &c, r->opts->json);
 	return MR_OK;
 }
 
@@ -326,4 +494,107 @@ mr_report_frame(mr_ctx *ctx, mr_frame *f, const mr_report_opts *opts, mr_text *t
 	if (broken)
 		*broken = r.first;
 	return MR_OK;
+}
+
+/* ---- a comparison ---- */
+
+static const figure distance_figures[] = {
+	{ "min", REAL, offsetof(mr_distance, min), NULL },
+	{ "max", REAL, offsetof(mr_distance, max), NULL },
+	{ "max_bound", REAL, offsetof(mr_distance, max_bound), NULL },
+	{ "mean", REAL, offsetof(mr_distance, mean), NULL },
+	{ "rms", REAL, offsetof(mr_distance, rms), NULL },
+	{ "samples", COUNT, offsetof(mr_distance, samples), NULL },
+};
+
+static const figure deviation_figures[] = {
+	{ "vertex_max", REAL, offsetof(mr_deviation, max), "vertices" },
+	{ "vertex_mean", REAL, offsetof(mr_deviation, mean), NULL },
+	{ "vertex_rms", REAL, offsetof(mr_deviation, rms), NULL },
+	{ "vertex_worst", COUNT, offsetof(mr_deviation, vertex), NULL },
+	{ "stretch_min", REAL, offsetof(mr_deviation, stretch_min), "edges" },
+	{ "stretch_mean", REAL, offsetof(mr_deviation, stretch_mean), NULL },
+	{ "stretch_max", REAL, offsetof(mr_deviation, stretch_max), NULL },
+};
+
+static void
+distance_json(mr_text *t, const char *name, const mr_distance *d)
+{
+	mr_text_add(t, ",\"%s\":{\"hausdorff\":", name);
+	mr_text_number(t, d->max);
+	figures_json(t, distance_figures, LENGTH(distance_figures), d);
+	mr_text_add(t, "}");
+}
+
+static void
+comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const char *b, mr_text *t)
+{
+	const mr_distance *d[3] = { &c->ab, &c->ba, &c->both };
+	static const char *const names[2][3] = { { "a_to_b", "b_to_a", "both" },
+		{ "a_to_b_relative", "b_to_a_relative", "both_relative" } };
+
+	mr_text_add(t, "{\"frame\":%llu,\"name\":", (unsigned long long)f->number);
+	mr_text_json(t, f->name, strlen(f->name));
+	mr_text_add(t, ",\"a\":");
+	mr_text_json(t, a, strlen(a));
+	mr_text_add(t, ",\"b\":");
+	mr_text_json(t, b, strlen(b));
+	mr_text_add(t, ",\"diagonal\":");
+	mr_text_number(t, c->diagonal);
+	for (int i = 0; i < 3; i++)
+		distance_json(t, names[0][i], d[i]);
+	for (int i = 0; i < 3; i++) {
+		double unit = c->diagonal;
+		mr_distance x = { d[i]->min / unit, d[i]->max / unit, d[i]->max_bound / unit,
+			d[i]->mean / unit, d[i]->rms / unit, d[i]->samples };
+		distance_json(t, names[1][i], &x);
+	}
+	mr_text_add(t, ",\"corresponds\":%s", c->corresponds ? "true" : "false");
+	if (c->corresponds) {
+		figures_json(t, deviation_figures, LENGTH(deviation_figures), &c->deviation);
+		mr_text_add(t, ",\"vertex_max_relative\":");
+		mr_text_number(t, c->deviation.max / c->diagonal);
+	}
+	mr_text_add(t, "}\n");
+}
+
+static void
+distance_text(mr_text *t, const char *name, const mr_distance *d, double unit)
+{
+	const double x[5] = { d->min, d->mean, d->rms, d->max, d->max_bound };
+
+	mr_text_add(t, "  %-12s", name);
+	for (int i = 0; i < 5; i++)
+		if (isfinite(x[i] / unit))
+			mr_text_add(t, " %12.6g", x[i] / unit);
+		else
+			mr_text_add(t, " %12s", "-");
+	mr_text_add(t, "\n");
+}
+
+static void
+comparison_text(const mr_comparison *c, const mr_frame *f, const char *a, const char *b, mr_text *t)
+{
+	mr_text_add(t, "%s: frame %llu, a: %s, b: %s", f->name, (unsigned long long)f->number, a, b);
+	mr_text_figure(t, ", diagonal of b ", 6, c->diagonal);
+	mr_text_add(t, "\n");
+	mr_text_add(
+	    t, "  %-12s %12s %12s %12s %12s %12s\n", "distance", "min", "mean", "rms", "max", "at most");
+	distance_text(t, "a to b", &c->ab, 1);
+	distance_text(t, "b to a", &c->ba, 1);
+	distance_text(t, "both", &c->both, 1);
+	if (c->diagonal > 0)
+		distance_text(t, "both, %", &c->both, c->diagonal / 100);
+	if (c->corresponds)
+		figures_text(t, deviation_figures, LENGTH(deviation_figures), &c->deviation);
+}
+
+void
+mr_report_comparison(
+    const mr_comparison *c, const mr_frame *f, const char *a, const char *b, bool json, mr_text *text)
+{
+	if (json)
+		comparison_json(c, f, a, b, text);
+	else
+		comparison_text(c, f, a, b, text);
 }

@@ -241,20 +241,6 @@ move_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* The vertices are where they went; the place of what was held back is where it was. */
-static void
-arrive_body(void *arg, size_t begin, size_t end)
-{
-	const pass *w = arg;
-	mr_dyn *d = w->d;
-
-	for (size_t v = begin; v < end; v++) {
-		if (memcmp(&w->p[v], &d->p[v], sizeof *d->p) != 0)
-			d->at[v] = w->at[v];
-		d->p[v] = w->p[v];
-	}
-}
-
 static void
 pass_new(mr_ctx *ctx, pass *w)
 {
@@ -297,7 +283,12 @@ mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts 
 	for (size_t i = 1; i <= o->passes; i++) {
 		w.project = o->project && i == o->passes;
 		MR_TRY(one_pass(ctx, d, &w));
-		mr_parallel(ctx, d->nv, GRAIN, arrive_body, &w);
+		for (size_t v = 0; v < d->nv; v++) {
+			if (memcmp(&w.p[v], &d->p[v], sizeof *d->p) !=
+			    0) /* else what was held back is where it was */
+				d->at[v] = w.at[v];
+			d->p[v] = w.p[v];
+		}
 	}
 	return MR_OK;
 }

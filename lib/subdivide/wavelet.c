@@ -2,48 +2,24 @@
  * Sweldens 1996: The lifting scheme, of which this is the prediction alone. */
 #include "subdivide/wavelet.h"
 
-#include "base/parallel.h"
-
-typedef struct lifting {
-	double *odd;
-	const double *predicted;
-	double sign;
-} lifting;
-
-static void
-lift(void *arg, size_t begin, size_t end)
-{
-	lifting *s = arg;
-
-	for (size_t i = begin; i < end; i++)
-		s->odd[i] += s->sign * s->predicted[i];
-}
-
 /* Adds the prediction, or takes it off, on level `fine`, whose coarser ones have their heights. */
 static void
 step(const mr_ctx *ctx, const mr_loop *fine, double sign, double *x, double *work)
 {
 	const mr_loop *coarse = fine - 1;
-	lifting s = { x + coarse->nv, work, sign };
 
 	mr_loop_predict(ctx, coarse, fine, 1, x, work);
-	mr_parallel(ctx, fine->nv - coarse->nv, 8192, lift, &s);
-}
-
-/* Workspace for the odd vertices of level n, the most of any; none on level 0. */
-static void
-reserve(mr_ctx *ctx, const mr_loop *level, size_t n, double **work)
-{
-	*work = MR_NEW(ctx, level[n].nv - level[n].coarse_nv, double);
+	for (size_t i = coarse->nv; i < fine->nv; i++)
+		x[i] += sign * work[i - coarse->nv];
 }
 
 void
 mr_wavelet_analyse(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
 {
 	MR_SCOPE(ctx);
-	double *work;
+	double *work = MR_NEW(
+	    ctx, level[n].nv - level[n].coarse_nv, double); /* of the level that has the most */
 
-	reserve(ctx, level, n, &work);
 	for (size_t i = n; i > 0; i--)
 		step(ctx, &level[i], -1, x, work);
 }
@@ -52,9 +28,8 @@ void
 mr_wavelet_synthesize(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
 {
 	MR_SCOPE(ctx);
-	double *work;
+	double *work = MR_NEW(ctx, level[n].nv - level[n].coarse_nv, double);
 
-	reserve(ctx, level, n, &work);
 	for (size_t i = 1; i <= n; i++)
 		step(ctx, &level[i], 1, x, work);
 }
