@@ -17,16 +17,6 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-/* Options that look for heights in points alone. */
-static mr_status
-check_mesh_options(cmd *c, const mr_frame *f)
-{
-	if (!mr_sample_meets_faces(f, c->layer))
-		return MR_OK;
-	MR_TRY(cmd_idle(c, "method", true, "on a mesh: its triangles are met"));
-	return cmd_idle(c, "neighbours", true, "on a mesh: its triangles are met");
-}
-
 static const cmd_field figures[] = {
 	CMD_COUNTED(mr_sample_result, level),
 	CMD_COUNTED(mr_sample_result, vertices),
@@ -48,10 +38,12 @@ static const cmd_field figures[] = {
 static mr_status
 sample_frame(cmd *c, mr_frame *f)
 {
+	bool on_mesh = mr_sample_meets_faces(f, c->layer);
 	mr_sample_result result;
 
 	opts.layer = c->layer;
-	MR_TRY(check_mesh_options(c, f));
+	MR_TRY(cmd_idle(c, "method", on_mesh, "on a mesh: its triangles are met"));
+	MR_TRY(cmd_idle(c, "neighbours", on_mesh, "on a mesh: its triangles are met"));
 	MR_TRY(mr_sample_frame(&c->ctx, f, &opts, &result));
 	cmd_figures(c, figures, &result);
 	cmd_gaps(c, &result.gaps);

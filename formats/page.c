@@ -499,16 +499,6 @@ failed(mr_ctx *ctx)
 }
 
 static mr_status
-begin(mr_ctx *ctx, mr_page *page)
-{
-	if (page->writer)
-		return MR_OK;
-	if (!page->file && !(page->file = tmpfile()))
-		return failed(ctx);
-	return mr_writer_open(ctx, fileno(page->file), MR_PACK, &page->writer);
-}
-
-static mr_status
 check_size(mr_ctx *ctx, off_t size, const mr_page_pictures *pictures)
 {
 	off_t all = size + (off_t)pictures->bytes;
@@ -535,7 +525,10 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers)
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
 	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown));
-	MR_TRY(begin(ctx, page));
+	if (!page->file && !(page->file = tmpfile()))
+		return failed(ctx);
+	if (!page->writer)
+		MR_TRY(mr_writer_open(ctx, fileno(page->file), MR_PACK, &page->writer));
 	MR_TRY(mr_writer_put(ctx, page->writer, &shown));
 	page->frames++;
 	return MR_OK;

@@ -91,23 +91,17 @@ read_point(ptx *f, const scan *s)
 	return MR_OK;
 }
 
-static void
-begin(ptx *f)
-{
-	mr_rows_add_unnamed(&f->rows, MR_X, 3);
-	mr_rows_add(&f->rows, MR_NO_ROLE, "intensity", strlen("intensity"), "double");
-	mr_rows_add_unnamed(&f->rows, MR_RED, 3);
-	mr_rows_add_unnamed(&f->rows, MR_FROM_X, 3);
-	mr_rows_begin(&f->rows);
-}
-
 mr_status
 mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .rows.b.ctx = ctx, .rows.sparse = true };
 	scan s;
 
-	begin(&f);
+	mr_rows_add_unnamed(&f.rows, MR_X, 3);
+	mr_rows_add(&f.rows, MR_NO_ROLE, "intensity", strlen("intensity"), "double");
+	mr_rows_add_unnamed(&f.rows, MR_RED, 3);
+	mr_rows_add_unnamed(&f.rows, MR_FROM_X, 3);
+	mr_rows_begin(&f.rows);
 	for (mr_skip_space(&f.text); f.text.p < f.text.end; mr_skip_space(&f.text)) {
 		MR_TRY(read_head(&f, &s));
 		MR_TRY(mr_rows_room(&f.rows, s.points));

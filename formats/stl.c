@@ -191,23 +191,17 @@ unit_normal(const mr_model *m, size_t f)
 	return mr_finite(n) ? n : mr_vec(0, 0, 0);
 }
 
-static void
-note_isolated(mr_sink *s, const mr_model *m)
+static mr_status
+need_faces(mr_sink *s, const mr_model *m, const char *keeps)
 {
 	size_t count;
 	bool *used;
 
-	mr_vertices_used(s->ctx, m->t, m->nf, m->nv, &used, &count);
-	mr_lost(s->ctx, NULL, m->nv - count, "isolated vertices");
-}
-
-static mr_status
-need_faces(mr_sink *s, const mr_model *m, const char *keeps)
-{
 	if (m->nf == 0)
 		return mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
 	mr_note_lost(s, m, keeps);
-	note_isolated(s, m);
+	mr_vertices_used(s->ctx, m->t, m->nf, m->nv, &used, &count);
+	mr_lost(s->ctx, NULL, m->nv - count, "isolated vertices");
 	return MR_OK;
 }
 

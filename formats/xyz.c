@@ -217,15 +217,6 @@ begin_rows(table *t, const mr_scan *row, size_t n)
 	return MR_OK;
 }
 
-static void
-see_length(table *t, size_t k, mr_v3 v)
-{
-	bool unit = mr_has_unit_length(v);
-
-	t->units[k] += unit;
-	t->others[k] += !unit && mr_norm2(v) > 0;
-}
-
 /* Looks at all rows: how many, of how many columns, and which could be colours. */
 static mr_status
 survey(table *t)
@@ -248,8 +239,12 @@ survey(table *t)
 			mr_shade_see(&t->column[i].seen, x[i]);
 			t->column[i].negative |= x[i] < 0;
 		}
-		for (size_t k = 0; k < 2 && 6 + 3 * k <= n; k++)
-			see_length(t, k, mr_vec(x[3 + 3 * k], x[4 + 3 * k], x[5 + 3 * k]));
+		for (size_t k = 0; k < 2 && 6 + 3 * k <= n; k++) {
+			mr_v3 v = mr_vec(x[3 + 3 * k], x[4 + 3 * k], x[5 + 3 * k]);
+			bool unit = mr_has_unit_length(v);
+			t->units[k] += unit;
+			t->others[k] += !unit && mr_norm2(v) > 0;
+		}
 		t->rows++;
 	}
 	if (t->counted && t->rows < t->count)

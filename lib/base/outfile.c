@@ -40,15 +40,6 @@ forget(mr_ctx *ctx, mr_outfile *f)
 	f->temporary = NULL;
 }
 
-static mr_status
-give_name(mr_ctx *ctx, mr_outfile *f)
-{
-	if (rename(f->temporary, f->target))
-		return failed(ctx, f->path, "cannot rename into place");
-	forget(ctx, f);
-	return MR_OK;
-}
-
 /* Who owns what is there, and may do what with it, stays so where that can be; what runs as its owner does
  * not as another. */
 static void
@@ -152,7 +143,9 @@ finish(mr_ctx *ctx, mr_outfile *f)
 		MR_TRY(mr_sync(ctx, f->fd, f->path));
 	if (!f->target)
 		return MR_OK;
-	MR_TRY(give_name(ctx, f));
+	if (rename(f->temporary, f->target))
+		return failed(ctx, f->path, "cannot rename into place");
+	forget(ctx, f);
 	return ctx->sync ? sync_folder(ctx, f) : MR_OK;
 }
 

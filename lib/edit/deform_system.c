@@ -236,17 +236,6 @@ norm_of(const double *r, size_t n)
 	return sqrt(sum);
 }
 
-/* u_f += r */
-static void
-add_free(const mr_deform_system *s, mr_field *f)
-{
-	size_t n = s->patch.end[0];
-
-	for (size_t c = 0; c < f->width; c++)
-		for (size_t i = 0; i < n; i++)
-			f->u[i * f->width + c] += f->r[c * n + i];
-}
-
 mr_status
 mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f)
 {
@@ -256,7 +245,9 @@ mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f)
 	find_residual(ctx, s, f);
 	scale = s->measures ? norm_of(f->r, n) : 0;
 	MR_TRY(mr_solver_solve(ctx, s->solver, f->r, f->width));
-	add_free(s, f);
+	for (size_t c = 0; c < f->width; c++) /* u_f += r */
+		for (size_t i = 0; i < s->patch.end[0]; i++)
+			f->u[i * f->width + c] += f->r[c * s->patch.end[0] + i];
 	s->residual = 0;
 	if (!(scale > 0))
 		return MR_OK;

@@ -125,26 +125,19 @@ count_duplicates(mr_ctx *ctx, const mr_mesh *m, mr_census *c)
 		c->duplicate_faces += !mr_face_repeats(m, f) && mr_face_is_repeated(m, &around, f);
 }
 
-static void
-count_degenerate(const mr_mesh *m, mr_census *c)
-{
-	for (size_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		c->degenerate_faces += mr_face_repeats(m, f) ||
-		                       mr_triangle_degenerate(m->p[v[0]], m->p[v[1]], m->p[v[2]]);
-	}
-}
-
 void
 mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *out)
 {
 	mr_census c = { .genus = MR_UNKNOWN };
 	size_t used = 0, proper = 0;
 
-	for (size_t f = 0; f < m->nf; f++)
-		proper += !mr_face_repeats(m, f);
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		bool repeats = mr_face_repeats(m, f);
+		proper += !repeats;
+		c.degenerate_faces += repeats || mr_triangle_degenerate(m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+	}
 	count_edges(m, edges, &c);
-	count_degenerate(m, &c);
 	count_components(ctx, m, &c, &used);
 	count_fans_and_loops(ctx, m, edges, &c);
 	count_duplicates(ctx, m, &c);

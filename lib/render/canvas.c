@@ -48,20 +48,14 @@ mr_image_fill(mr_image *image, double x, double y, double w, double h, mr_rgb co
 			image->pixel[j * image->width + i] = color;
 }
 
-static void
-draw_letter(mr_image *image, double x, double y, double unit, mr_rgb color, char letter)
-{
-	const uint8_t *rows = mr_glyph(letter);
-
-	for (int j = 0; j < MR_GLYPH_ROWS; j++)
-		for (int i = 0; i < 5; i++)
-			if (rows[j] >> (4 - i) & 1)
-				mr_image_fill(image, x + i * unit, y + j * unit, unit, unit, color);
-}
-
 void
 mr_image_text(mr_image *image, double x, double y, double unit, mr_rgb color, const char *text)
 {
-	for (; *text; text++, x += MR_TEXT_ADVANCE * unit)
-		draw_letter(image, x, y, unit, color, *text);
+	for (; *text; text++, x += MR_TEXT_ADVANCE * unit) {
+		const uint8_t *rows = mr_glyph(*text);
+		for (int j = 0; j < MR_GLYPH_ROWS; j++)
+			for (int i = 0; i < 5; i++)
+				if (rows[j] >> (4 - i) & 1)
+					mr_image_fill(image, x + i * unit, y + j * unit, unit, unit, color);
+	}
 }

@@ -130,16 +130,6 @@ cycle_iterate(
 /* The solvers */
 
 static mr_status
-precondition(mr_ctx *ctx, krylov *k, const mr_system *system)
-{
-	if (k->opts.kind == MR_VCYCLE)
-		return mr_vcycle_new(ctx, system->a, system->hierarchy, &k->b);
-	if (k->opts.kind == MR_MULTIGRID)
-		return mr_multigrid_new(ctx, system->a, system->hierarchy, &k->b);
-	return mr_incomplete_new(ctx, system->a, false, &k->b);
-}
-
-static mr_status
 krylov_setup(
     mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data, mr_solver_report *report)
 {
@@ -149,7 +139,11 @@ krylov_setup(
 	k->opts = *opts;
 	k->a = system->a;
 	k->iterate = opts->kind == MR_VCYCLE ? cycle_iterate : cg_iterate;
-	MR_TRY(precondition(ctx, k, system));
+	if (opts->kind == MR_CG)
+		MR_TRY(mr_incomplete_new(ctx, system->a, false, &k->b));
+	else
+		MR_TRY((opts->kind == MR_VCYCLE ? mr_vcycle_new : mr_multigrid_new)(
+		    ctx, system->a, system->hierarchy, &k->b));
 	*report = (mr_solver_report){ .seconds_factor = mr_seconds() - start, .nnz_factor = k->b.nnz };
 	return MR_OK;
 }

@@ -71,16 +71,6 @@ smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_multivector s, 
 	}
 }
 
-/* The coarsest level: x = A^-1 r */
-static mr_status
-solve_coarsest(mr_ctx *ctx, const multigrid *g, const level *l, mr_multivector s)
-{
-	mr_multivector_scatter(s, l->r, g->column);
-	MR_TRY(mr_solver_solve(ctx, g->coarsest, g->column, s.width));
-	mr_multivector_gather(s, g->column, l->x);
-	return MR_OK;
-}
-
 /* One V-cycle from x = 0: r holds the right-hand sides. */
 static mr_status
 cycle(mr_ctx *ctx, const multigrid *g, size_t at, size_t width)
@@ -88,8 +78,12 @@ cycle(mr_ctx *ctx, const multigrid *g, size_t at, size_t width)
 	level *l = &g->level[at], *coarse = l + 1;
 	mr_multivector s = { (size_t)l->a.n, width };
 
-	if (at + 1 == g->count)
-		return solve_coarsest(ctx, g, l, s);
+	if (at + 1 == g->count) { /* the coarsest: x = A^-1 r */
+		mr_multivector_scatter(s, l->r, g->column);
+		MR_TRY(mr_solver_solve(ctx, g->coarsest, g->column, width));
+		mr_multivector_gather(s, g->column, l->x);
+		return MR_OK;
+	}
 	memset(l->x, 0, s.n * width * sizeof *l->x);
 	smooth(ctx, g, l, s, true);
 	mr_sparse_apply(ctx, &l->restrict_, NULL, (size_t)coarse->a.n, width, l->r, coarse->r);

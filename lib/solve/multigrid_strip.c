@@ -67,20 +67,11 @@ factor_strip(mr_ctx *ctx, strip *t)
 	return mr_solver_direct(ctx, t->exact, MR_CHOLESKY, &lower, NULL);
 }
 
-static void
-make_workspace(mr_ctx *ctx, strip *t)
-{
-	size_t n = (size_t)t->a->n * MR_WIDTH;
-
-	t->column = MR_NEW(ctx, t->n * MR_WIDTH, double);
-	t->r = MR_NEW(ctx, n, double);
-	t->d = MR_NEW(ctx, n, double);
-}
-
 mr_status
 mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_preconditioner *b)
 {
 	strip *t = MR_NEW_ZERO(ctx, 1, strip);
+	size_t n = (size_t)a->n * MR_WIDTH;
 
 	*b = (mr_preconditioner){ strip_apply, t, 0 };
 	t->a = a;
@@ -90,7 +81,9 @@ mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_prec
 	b->nnz = t->cycles.nnz;
 	if (t->n == 0)
 		return MR_OK;
-	make_workspace(ctx, t);
+	t->column = MR_NEW(ctx, t->n * MR_WIDTH, double);
+	t->r = MR_NEW(ctx, n, double);
+	t->d = MR_NEW(ctx, n, double);
 	MR_TRY(factor_strip(ctx, t));
 	b->nnz += mr_solver_reported(t->exact).nnz_factor;
 	return MR_OK;

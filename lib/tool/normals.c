@@ -105,16 +105,6 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 }
 
 static mr_status
-of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *normal)
-{
-	if (o->neighbours || o->from)
-		return mr_fail(ctx, MR_EUSAGE,
-		    "%s has faces: neighbours and the place they are seen from are of points", m->name);
-	mr_vertex_normals(ctx, m, NULL, normal);
-	return MR_OK;
-}
-
-static mr_status
 put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_result *r)
 {
 	static const char *const reads[] = { "mesh", "control", "points", NULL };
@@ -126,10 +116,16 @@ put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_resul
 	MR_TRY(mr_check_number(ctx, "neighbours", (double)o->neighbours, 0, 128));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
+	if (m.nf && (o->neighbours || o->from))
+		return mr_fail(ctx, MR_EUSAGE,
+		    "%s has faces: neighbours and the place they are seen from are of points", layer);
 	if (mr_layer_has(f, layer, "normal"))
 		MR_TRY(mr_layer_get_rows(ctx, f, layer, "normal", m.nv, &there));
 	normal = MR_NEW(ctx, m.nv, mr_v3);
-	MR_TRY(m.nf ? of_surface(ctx, &m, o, normal) : of_points(ctx, f, &m, o, there, normal, r));
+	if (m.nf)
+		mr_vertex_normals(ctx, &m, NULL, normal);
+	else
+		MR_TRY(of_points(ctx, f, &m, o, there, normal, r));
 	finish(o, there, m.nv, normal, r);
 	mr_frame_drop(f, layer, "corner_normal", 0);
 	return mr_layer_put(ctx, f, layer, "normal", normal, m.nv);

@@ -41,16 +41,6 @@ get_target(mr_ctx *ctx, mr_frame *f, const char *only, mr_mesh *target)
 	return mr_layer_points(ctx, f, layer, target);
 }
 
-/* The triangles of level 0 are far from the surface that was fitted. */
-static mr_status
-choose_level(mr_ctx *ctx, const mr_mesh *control, size_t vertices, size_t *n)
-{
-	MR_TRY(mr_domain_level(ctx, control, vertices, n));
-	if (*n == 0)
-		*n = 1;
-	return MR_OK;
-}
-
 /* The columns of the points that go along, and says which cannot.  carried: f->count, the caller's. */
 static mr_status
 get_columns(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, size_t nv, mr_carried *carried, size_t *count)
@@ -98,8 +88,10 @@ sample(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *o, mr_sample_result *resu
 		MR_TRY(mr_check_number(ctx, "level", (double)o->level, 0, MR_LEVEL_MAX));
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
 	MR_TRY(get_target(ctx, f, o->layer, &target));
-	if (n == MR_UNKNOWN)
-		MR_TRY(choose_level(ctx, &control, target.nv, &n));
+	if (n == MR_UNKNOWN) {
+		MR_TRY(mr_domain_level(ctx, &control, target.nv, &n));
+		n = n ? n : 1; /* the triangles of level 0 are far from the surface that was fitted */
+	}
 	MR_TRY(mr_sample_report_move(ctx, f, target.name));
 	MR_TRY(mr_domain_of(ctx, f, &control, n, &d));
 	height = MR_NEW(ctx, d.m.nv, double);

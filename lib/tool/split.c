@@ -96,16 +96,6 @@ take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, siz
 }
 
 static void
-lose_layers(mr_ctx *ctx, const mr_frame *f, const char *layer)
-{
-	const char *others;
-
-	mr_layer_names(ctx, f, layer, &others);
-	if (*others)
-		mr_lost(ctx, layer, 1, others);
-}
-
-static void
 tell(mr_ctx *ctx, const mr_mesh *m, const parts *p, mr_split_result *r)
 {
 	*r = (mr_split_result){ .parts = p->given,
@@ -120,7 +110,7 @@ static mr_status
 split(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o, mr_frame ***out, mr_split_result *result)
 {
 	static const char *const reads[] = { "mesh", "control", "points", NULL };
-	const char *layer;
+	const char *layer, *others;
 	mr_split_result r;
 	mr_frame **part;
 	mr_mesh m;
@@ -138,7 +128,9 @@ split(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o, mr_frame ***out, mr_spli
 	part = MR_NEW(ctx, p.given, mr_frame *);
 	for (size_t k = 0; k < p.given; k++)
 		MR_TRY(take_part(ctx, f, layer, &p, k, &part[k]));
-	lose_layers(ctx, f, layer);
+	mr_layer_names(ctx, f, layer, &others);
+	if (*others)
+		mr_lost(ctx, layer, 1, others);
 	tell(ctx, &m, &p, &r);
 	*out = part;
 	if (result)
