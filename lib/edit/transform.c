@@ -446,11 +446,5 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 mr_status
 mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 {
-	mr_frame done;
-
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(transform(ctx, &done, layer, map));
-	*f = done;
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, NULL, done, transform(ctx, &done, layer, map));
 }

@@ -51,7 +51,8 @@ void mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 void mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes);
 
 /* NOLINTBEGIN(bugprone-macro-parentheses): it declares the copy */
-/* How a tool's function ends: `work` is done on a copy of the frame, and finished. */
+/* How a tool's function ends: `work` is done on a copy of the frame, and finished.  result: NULL, and found
+ * the copy, of a tool that finds nothing. */
 #define MR_ON_COPY(ctx, frame, copy, result, found, work)                                                    \
 	mr_frame copy;                                                                                       \
 	MR_ENTER(ctx);                                                                                       \

@@ -178,11 +178,7 @@ mr_status
 mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache)
 {
 	static const mr_decode_opts defaults = MR_DECODE_DEFAULTS;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(decode(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache)));
-	*f = done;
-	return MR_OK;
+	MR_ON_COPY(
+	    ctx, f, done, NULL, done, decode(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache)));
 }

@@ -33,11 +33,5 @@ equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *c
 mr_status
 mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache)
 {
-	mr_frame done;
-
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(equalize(ctx, &done, gain, gains, mr_cache_for(ctx, cache)));
-	*f = done;
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, NULL, done, equalize(ctx, &done, gain, gains, mr_cache_for(ctx, cache)));
 }
