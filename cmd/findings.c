@@ -66,7 +66,7 @@ static const entry table[MR_FINDING_KINDS] = {
 	[MR_UNHELD] = { VERDICT_POOR, 0, "{layer}: {what}", "",
 	    "No constraint holds a part, or no vertex is free." },
 	[MR_HANDLE] = { VERDICT_POOR, 0, "{what}", "", "A handle is asked for what it cannot do." },
-	[MR_LIMIT] = { VERDICT_GOOD, 0, "{what}", "", "An option has no effect, or could not be met." },
+	[MR_LIMIT] = { VERDICT_GOOD, 0, "{what}{at}", "", "An option has no effect, or could not be met." },
 	[MR_LAYER] = { VERDICT_GOOD, 0, "{layer} is taken, not {what}, which was worked on last", "",
 	    "Another layer than the latest is taken." },
 };

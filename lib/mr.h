@@ -336,6 +336,28 @@ typedef struct mr_remesh_result {
 MR_API mr_status mr_remesh_frame(
     mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_result *result) MR_WARN_UNUSED;
 
+typedef struct mr_fill_opts {
+	double max_length; /* of a loop that is filled; 0: any */
+	bool max_length_relative; /* max_length is a share of the bounding box's diagonal */
+	size_t loops; /* the shortest, so many; 0: all, but without max_length the rims of open surfaces */
+	size_t order; /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
+	const char *layer; /* NULL: mesh, else base */
+} mr_fill_opts;
+
+#define MR_FILL_DEFAULTS MR_DEFAULTS(0, false, 0, 2, NULL)
+
+typedef struct mr_fill_result {
+	size_t loops, filled;   /* boundary loops there were, and those that are filled */
+	size_t crossing;        /* loops left open because their patch would cross the surface */
+	size_t vertices, faces; /* new ones, behind those there were */
+} mr_fill_result;
+
+/* Fills boundary loops by patches that go on smoothly (Liepa 2003; Botsch, Kobbelt 2004): vertices and faces that
+ * were there stay as they are, bit for bit.  What other layers know of the layer is dropped.  MR_EMESH without a
+ * face; MR_ENUMERIC where the system has no solution in doubles. */
+MR_API mr_status mr_fill_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_fill_opts *opts, mr_fill_result *result) MR_WARN_UNUSED;
+
 /* Vertices for which a predicate of mr-select holds ("all", "above:y,0.8", ...) and their region. */
 typedef struct mr_rule {
 	uint32_t region;

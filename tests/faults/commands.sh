@@ -1,6 +1,7 @@
 # One command of each tool and of each format, small: the words are given to try.  What they write is in made/.
 mr-make bumpy -n 400 -o mesh.mrs
 mr-make bumpy -n 400 --points 600 --noise 0.01 -o points.mrs
+mr-crop --keep below:y,0.9 mesh.mrs >cropped.mrs
 mr-smooth -t 2 mesh.mrs | mr-remesh -r 1.5 >base.mrs
 mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.8 base.mrs | mr-encode >encoded.mrs
 mr-pose -H 1 --rotate 0,0,1,30 encoded.mrs >posed.mrs
@@ -50,6 +51,7 @@ try mr-subdivide -j1 -n 1 --limit mesh.mrs
 try mr-normals -j1 points.mrs
 try mr-split -j1 mesh.mrs
 try mr-crop -j1 --keep above:y,0.5 mesh.mrs
+try mr-fill -j1 --loops 1 cropped.mrs
 try mr-transform -j1 --rotate 0,0,1,30 solved.mrs
 try mr-map -j1 -w made/x displaced.mrs
 try mr-render -j1 --size 64x64 -i mesh.mrs made/x.png

@@ -202,6 +202,16 @@ split(const job *j)
 }
 
 static mr_status
+fill(const job *j)
+{
+	mr_fill_opts o = MR_FILL_DEFAULTS;
+
+	o.loops = j->way % 2 ? 3 : 0;
+	o.order = 1 + j->way % 3;
+	return mr_fill_frame(j->ctx, j->f, &o, NULL);
+}
+
+static mr_status
 equalize(const job *j)
 {
 	static const double gain[] = { 1, 0.5 };
@@ -302,6 +312,7 @@ static const struct tool {
 	{ "mr-subdivide", subdivide }, { "mr-simplify", simplify }, { "mr-fit", fit },
 	{ "mr-sample", sample }, { "mr-shrinkwrap", wrap }, { "mr-normals", normals },
 	{ "mr-transform", transform }, { "mr-crop", crop }, { "mr-split", split },
+	{ "mr-fill", fill },
 	{ "mr-equalize", equalize }, { "mr-export", export }, { "mr-render", render }, { "mr-view", view },
 	{ "mr-info", info }, { "mr-compare", compare }, { "mr-map", map } };
 

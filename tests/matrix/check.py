@@ -187,6 +187,13 @@ def chosen(before, after):
         must(((region == 3) | (p <= y + slack)).all() and ((region == 0) | (p >= y - slack)).all(), "a vertex of a wrong region")
 
 
+def first_rows(before, after):
+    for old, new in zip(before, after):
+        for name in ("position", "triangles"):
+            rows = old["mesh"][name]
+            must(np.array_equal(rows, new["mesh"][name][:len(rows)]), f"other {name}")
+
+
 def parts(before, after):
     whole = sum(faces(frame, "mesh") for frame in before)
     must(sum(faces(frame, "mesh") for frame in after) == whole, f"parts of {sum(faces(f, 'mesh') for f in after)} faces of {whole}")

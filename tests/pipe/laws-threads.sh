@@ -56,7 +56,8 @@ try - mr-map -w map displaced.mrs
 try - mr-render --size 200x200 -i mesh.mrs -
 try - mr-view -i mesh.mrs -
 try - mr-transform --rotate 1,0,0,20 mesh.mrs
-try - mr-crop --keep above:y,0.5 mesh.mrs
+try cropped.mrs mr-crop --keep below:y,0.8 mesh.mrs
+try - mr-fill cropped.mrs
 try - mr-split mesh.mrs
 try - mr-cat -z mesh.mrs
 echo "$n commands"

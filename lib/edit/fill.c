@@ -1,0 +1,489 @@
+/*
+ * Liepa 2003: Filling holes in meshes: each loop is spanned by triangles of least bend and area, which are
+ * refined to the edges around; the fairing is Botsch, Kobbelt 2004, section 4, with the surface as
+ * constraint.
+ */
+#include "edit/fill.h"
+
+#include "base/disjoint_sets.h"
+#include "edit/deform.h"
+#include "edit/deform_system.h"
+#include "mesh/loops.h"
+#include "op/laplace.h"
+#include "remesh/relax.h"
+#include "space/self_intersect.h"
+
+/* Longer loops are rims of an open surface: the share of its area that a circle of that length has. */
+static const double OPEN = 0.25;
+
+/* A loop that is filled. */
+typedef struct hole {
+	double length;
+	uint32_t loop;
+} hole;
+
+typedef struct filler {
+	mr_ctx *ctx;
+	const mr_mesh *m;
+	const mr_fill_opts *o;
+	mr_loops loops;
+	hole *hole; /* n, the shortest first */
+	size_t n;
+	mr_patch around;    /* the surface near the rims */
+	uint32_t *at;       /* of each vertex of the rims, where it is in that */
+	mr_adjacency joins; /* of that */
+	mr_dyn d;           /* the patches */
+	size_t rim;
+	uint32_t *he, *loop; /* as in mr_patches */
+	double *edge;        /* of each vertex the length of edges there */
+	size_t loop_room, edge_room;
+} filler;
+
+/* ---- which loops ---- */
+
+static int
+by_length(const void *a, const void *b)
+{
+	const hole *x = a, *y = b;
+
+	return x->length != y->length ? (x->length > y->length) - (x->length < y->length)
+	                              : (x->loop > y->loop) - (x->loop < y->loop);
+}
+
+/* The area of each component, at the root of its vertices in *set. */
+static double *
+component_areas(mr_ctx *ctx, const mr_mesh *m, uint32_t **set)
+{
+	double *area = MR_NEW_ZERO(ctx, m->nv, double);
+
+	*set = mr_sets_new(ctx, m->nv);
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		mr_sets_join(*set, mr_he_from(m, h), mr_he_to(m, h));
+	for (size_t f = 0; f < m->nf; f++)
+		area[mr_sets_root(*set, m->t[f].v[0])] += mr_norm(mr_face_cross(m, f)) / 2;
+	return area;
+}
+
+static void
+choose_loops(filler *w)
+{
+	const mr_mesh *m = w->m;
+	uint32_t *set;
+	double *area = component_areas(w->ctx, m, &set);
+	double most = w->o->max_length * (w->o->max_length_relative ? mr_mesh_diagonal(m) : 1);
+
+	w->hole = MR_NEW(w->ctx, w->loops.count, hole);
+	for (uint32_t i = 0; i < w->loops.count; i++) {
+		double l = 0, all = area[mr_sets_root(set, mr_he_from(m, w->loops.he[w->loops.start[i]]))];
+		for (size_t k = w->loops.start[i]; k < w->loops.start[i + 1]; k++)
+			l += mr_dist(m->p[mr_he_from(m, w->loops.he[k])], m->p[mr_he_to(m, w->loops.he[k])]);
+		if (most > 0 ? l <= most : w->o->loops > 0 || l * l <= 4 * MR_PI * OPEN * all)
+			w->hole[w->n++] = (hole){ l, i };
+	}
+	qsort(w->hole, w->n, sizeof *w->hole, by_length);
+	if (w->o->loops > 0 && w->n > w->o->loops)
+		w->n = w->o->loops;
+}
+
+/* ---- the first triangles ---- */
+
+/* The surface around the rims, its joins, and the mean length of edges at each vertex of the rims. */
+static void
+look_around(filler *w)
+{
+	const mr_mesh *m = w->m;
+	bool *chosen = MR_NEW_ZERO(w->ctx, m->nv, bool);
+	uint32_t *number = MR_NEW(w->ctx, m->nv, uint32_t);
+	double *sum, *count;
+
+	for (size_t i = 0; i < w->rim; i++)
+		chosen[mr_he_from(m, w->he[i])] = true;
+	mr_patch_build(w->ctx, m, m->nf, chosen, MR_PATCH_RINGS, &w->around);
+	mr_adjacency_build(w->ctx, &w->around.mesh, &w->joins);
+	sum = MR_NEW_ZERO(w->ctx, w->around.mesh.nv, double);
+	count = MR_NEW_ZERO(w->ctx, w->around.mesh.nv, double);
+	for (uint32_t h = 0; h < 3 * w->around.mesh.nf; h++) {
+		uint32_t a = mr_he_from(&w->around.mesh, h), b = mr_he_to(&w->around.mesh, h);
+		double l = mr_dist(w->around.mesh.p[a], w->around.mesh.p[b]);
+		sum[a] += l;
+		sum[b] += l;
+		count[a]++;
+		count[b]++;
+	}
+	for (uint32_t i = 0; i < w->around.end[0]; i++)
+		number[w->around.vertex[i]] = i;
+	for (size_t i = 0; i < w->rim; i++) {
+		w->at[i] = number[mr_he_from(m, w->he[i])];
+		w->edge[i] = sum[w->at[i]] / count[w->at[i]];
+	}
+	for (size_t i = 0, first = 0; i < w->rim; i++) { /* no edge between the ends of a long one is short */
+		bool last = i + 1 == w->rim || w->loop[i + 1] != w->loop[i];
+		size_t j = last ? first : i + 1;
+		double least = 0.75 * mr_dist(m->p[mr_he_from(m, w->he[i])], m->p[mr_he_to(m, w->he[i])]);
+		w->edge[i] = fmax(w->edge[i], least);
+		w->edge[j] = fmax(w->edge[j], least);
+		first = last ? i + 1 : first;
+	}
+}
+
+/* Whether two vertices of the patches have an edge of the surface in common. */
+static bool
+are_joined(const filler *w, uint32_t a, uint32_t b)
+{
+	size_t i, end;
+
+	if (a >= w->rim || b >= w->rim)
+		return false;
+	i = w->joins.start[w->at[a]];
+	end = w->joins.start[w->at[a] + 1];
+	while (i < end && w->joins.adj[i] != w->at[b])
+		i++;
+	return i < end;
+}
+
+typedef struct corners {
+	const filler *w;
+	uint32_t first;
+} corners;
+
+static bool
+is_taken(const void *arg, uint32_t i, uint32_t j)
+{
+	const corners *c = arg;
+
+	return are_joined(c->w, c->first + i, c->first + j);
+}
+
+/* Spans every loop, and makes the patches of that. */
+static mr_status
+span_loops(filler *w)
+{
+	size_t nf = 0, first = 0;
+	mr_v3 *p = MR_NEW(w->ctx, w->rim, mr_v3), *beside = MR_NEW(w->ctx, w->rim, mr_v3);
+	mr_tri *t = MR_NEW(w->ctx, w->rim, mr_tri);
+	mr_topology topo;
+	mr_mesh m;
+
+	for (size_t i = 0; i < w->rim; i++) {
+		p[i] = w->m->p[mr_he_from(w->m, w->he[i])];
+		beside[i] = mr_face_cross(w->m, w->he[i] / 3);
+	}
+	for (size_t l = 0, n; l < w->n; l++, first += n) {
+		corners c = { w, (uint32_t)first };
+		n = w->loops.start[w->hole[l].loop + 1] - w->loops.start[w->hole[l].loop];
+		mr_span(w->ctx, p + first, beside + first, n, is_taken, &c, t + nf);
+		for (size_t end = nf + n - 2; nf < end; nf++)
+			for (int k = 0; k < 3; k++)
+				t[nf].v[k] += (uint32_t)first;
+	}
+	m = (mr_mesh){ w->m->name, p, t, w->rim, nf };
+	MR_TRY(mr_topology_build(w->ctx, &m, &topo));
+	MR_TRY(mr_dyn_build(w->ctx, &m, &topo, 180, &w->d));
+	memset(w->d.kind, MR_CORNER, w->rim); /* the rims stay */
+	return MR_OK;
+}
+
+/* ---- finer, and rounder ---- */
+
+/* By how much an edge is too long, at most 1: it is not.  One that the surface has already is. */
+static double
+excess(const filler *w, uint32_t h)
+{
+	uint32_t a = w->d.v[h], b = mr_dyn_to(&w->d, h);
+	double l = mr_dist(w->d.p[a], w->d.p[b]) / (w->edge[a] + w->edge[b]) * 1.5;
+
+	return are_joined(w, a, b) ? fmax(l, 2) : l;
+}
+
+/* Halves the inner edges that are longer than `coarser` times what they may be; what that makes is for later,
+ * since flips come first. */
+static mr_status
+split_edges(filler *w, double coarser, size_t *splits)
+{
+	size_t before = 3 * w->d.nf, nv = w->d.nv;
+
+	for (uint32_t h = 0, m; h < before; h++) {
+		uint32_t a = w->d.v[h], b = mr_dyn_to(&w->d, h);
+		if (w->d.twin[h] == MR_NONE || h > w->d.twin[h] || excess(w, h) <= coarser)
+			continue;
+		MR_TRY(mr_dyn_split(w->ctx, &w->d, h, mr_lerp(0.5, w->d.p[a], w->d.p[b]), &m));
+		MR_RESERVE(w->ctx, w->loop, m, 1, &w->loop_room);
+		MR_RESERVE(w->ctx, w->edge, m, 1, &w->edge_room);
+		w->loop[m] = w->loop[a];
+		w->edge[m] = (w->edge[a] + w->edge[b]) / 2;
+	}
+	*splits = w->d.nv - nv;
+	return MR_OK;
+}
+
+static double
+cotangent_at(const mr_dyn *d, uint32_t h)
+{
+	double cot[3];
+
+	mr_cotangents(d->p[mr_dyn_apex(d, h)], d->p[d->v[h]], d->p[mr_dyn_to(d, h)], cot);
+	return cot[0];
+}
+
+/* Whether the two angles opposite are more than a half turn, and the edge across turns no face over. */
+static bool
+wants_flip(const filler *w, uint32_t h)
+{
+	const mr_dyn *d = &w->d;
+	uint32_t g = d->twin[h], c, e;
+	mr_v3 across, n;
+
+	if (g == MR_NONE || h > g || cotangent_at(d, h) + cotangent_at(d, g) >= -1e-9)
+		return false;
+	c = mr_dyn_apex(d, h);
+	e = mr_dyn_apex(d, g);
+	across = mr_sub(d->p[e], d->p[c]);
+	n = mr_add(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3));
+	return mr_dyn_can_flip(d, h) && !are_joined(w, c, e) &&
+	       mr_dot(n, mr_cross(mr_sub(d->p[d->v[h]], d->p[c]), across)) > 0 &&
+	       mr_dot(n, mr_cross(across, mr_sub(d->p[d->v[g]], d->p[c]))) > 0;
+}
+
+static void
+flip_edges(filler *w)
+{
+	enum { PASSES = 32 };
+	bool any = true;
+
+	for (int i = 0; i < PASSES && any; i++) {
+		any = false;
+		for (uint32_t h = 0; h < 3 * w->d.nf; h++)
+			if (wants_flip(w, h)) {
+				mr_dyn_flip(&w->d, h);
+				any = true;
+			}
+	}
+}
+
+/* Edges as long as those around, of nearly equilateral triangles. */
+static mr_status
+refine(filler *w)
+{
+	enum { PASSES = 64 };
+	const mr_relax_opts relax = { .damping = 0.5, .passes = 3 };
+	mr_mesh m = { .name = w->m->name };
+	double most = 1;
+	size_t splits, passes = 0;
+
+	flip_edges(w);
+	for (uint32_t h = 0; h < 3 * w->d.nf; h++)
+		if (w->d.twin[h] != MR_NONE)
+			most = fmax(most, excess(w, h));
+	do {
+		most = fmax(1, most / 2);
+		MR_TRY(split_edges(w, most, &splits));
+		flip_edges(w);
+	} while ((splits > 0 || most > 1) && ++passes < PASSES);
+	for (int i = 0; i < 3; i++) {
+		MR_TRY(mr_relax(w->ctx, &w->d, &(mr_remesh_source){ .m = &m }, &relax));
+		flip_edges(w);
+	}
+	return MR_OK;
+}
+
+/* Lets the new vertices go where D^k p = 0, all others as they are. */
+static mr_status
+fair(filler *w, size_t order)
+{
+	const mr_mesh *a = &w->around.mesh;
+	mr_deform_opts o = MR_DEFORM_DEFAULTS;
+	mr_mark mark = mr_mark_take(w->ctx);
+	size_t nv = a->nv + w->d.nv - w->rim, nf = a->nf + w->d.nf;
+	mr_v3 *p = MR_NEW(w->ctx, nv, mr_v3), *to = MR_NEW(w->ctx, nv, mr_v3);
+	mr_tri *t = MR_NEW(w->ctx, nf, mr_tri);
+	uint32_t *region = MR_NEW_ZERO(w->ctx, nv, uint32_t), *flat = &t[a->nf].v[0];
+	mr_deform *deform;
+
+	if (w->d.nv == w->rim)
+		return MR_OK;
+	o.order = order;
+	o.apart = true;
+	memcpy(p, a->p, a->nv * sizeof *p);
+	memcpy(p + a->nv, w->d.p + w->rim, (w->d.nv - w->rim) * sizeof *p);
+	memcpy(t, a->t, a->nf * sizeof *t);
+	for (size_t i = 0; i < 3 * w->d.nf; i++) {
+		uint32_t v = w->d.v[i];
+		flat[i] = v < w->rim ? w->at[v] : (uint32_t)(v - w->rim + a->nv);
+	}
+	for (size_t v = a->nv; v < nv; v++)
+		region[v] = MR_REGION_FREE;
+	MR_TRY(mr_deform_new(w->ctx, &(mr_mesh){ w->m->name, p, t, nv, nf }, NULL, region, &o, &deform));
+	MR_TRY(mr_deform_solve(w->ctx, deform, p, NULL, to));
+	memcpy(w->d.p + w->rim, to + a->nv, (w->d.nv - w->rim) * sizeof *p);
+	mr_mark_release(w->ctx, mark);
+	return MR_OK;
+}
+
+/* ---- what crosses ---- */
+
+/* The patches whose loops are not bad, loop by loop, and the surface with them. */
+static void
+gather(filler *w, const bool *bad, mr_patches *out)
+{
+	size_t nv = w->m->nv, nf = w->m->nf, kept = 0, *end = MR_NEW_ZERO(w->ctx, w->n + 1, size_t);
+	mr_v3 *p = MR_NEW(w->ctx, w->d.nv, mr_v3), *all_p = MR_NEW(w->ctx, nv + w->d.nv, mr_v3);
+	mr_tri *t = MR_NEW(w->ctx, w->d.nf, mr_tri), *all_t = MR_NEW(w->ctx, nf + w->d.nf, mr_tri);
+	uint32_t *he = MR_NEW(w->ctx, w->rim, uint32_t), *loop = MR_NEW(w->ctx, w->d.nv, uint32_t);
+	uint32_t *number = MR_NEW(w->ctx, w->d.nv, uint32_t);
+
+	*out = (mr_patches){ .he = he, .loop = loop };
+	for (size_t v = 0; v < w->d.nv; v++) {
+		if (bad[w->loop[v]])
+			continue;
+		if (v < w->rim)
+			he[out->rim++] = w->he[v];
+		p[kept] = w->d.p[v];
+		loop[kept] = w->loop[v];
+		number[v] = (uint32_t)kept++;
+	}
+	for (size_t f = 0; f < w->d.nf; f++)
+		end[w->loop[w->d.v[3 * f]] + 1] += !bad[w->loop[w->d.v[3 * f]]];
+	for (size_t l = 0; l < w->n; l++)
+		end[l + 1] += end[l];
+	out->m = (mr_mesh){ w->m->name, p, t, kept, end[w->n] };
+	out->all = (mr_mesh){ w->m->name, all_p, all_t, nv + kept - out->rim, nf + end[w->n] };
+	memcpy(all_p, w->m->p, nv * sizeof *p);
+	memcpy(all_p + nv, p + out->rim, (kept - out->rim) * sizeof *p);
+	memcpy(all_t, w->m->t, nf * sizeof *t);
+	for (size_t f = 0; f < w->d.nf; f++) {
+		size_t l = w->loop[w->d.v[3 * f]], at = end[l];
+		if (bad[l])
+			continue;
+		end[l]++;
+		for (int k = 0; k < 3; k++) {
+			uint32_t v = number[w->d.v[3 * f + (size_t)k]];
+			t[at].v[k] = v;
+			all_t[nf + at].v[k] = v < out->rim ? mr_he_from(w->m, he[v])
+			                                   : (uint32_t)(v - out->rim + nv);
+		}
+	}
+}
+
+typedef struct crossing {
+	const mr_mesh *all;
+	const mr_patches *patches;
+	size_t before; /* faces of the surface */
+	uint32_t face; /* of a patch */
+	bool *bad;     /* of each loop */
+} crossing;
+
+static uint32_t
+loop_of(const crossing *c, size_t f)
+{
+	return c->patches->loop[c->patches->m.t[f - c->before].v[0]];
+}
+
+/* Of two patches that of the shorter loop stands, if it is good. */
+static bool
+look_at_pair(void *arg, uint32_t g)
+{
+	const crossing *c = arg;
+	uint32_t loop = loop_of(c, c->face);
+	mr_v3 p[3], q[3];
+
+	if (g == c->face)
+		return true;
+	if (g >= c->before && (loop_of(c, g) > loop || (loop_of(c, g) < loop && c->bad[loop_of(c, g)])))
+		return true;
+	mr_corners(c->all, c->face, p);
+	mr_corners(c->all, g, q);
+	c->bad[loop] = !mr_triangle_degenerate(p[0], p[1], p[2]) &&
+	               !mr_triangle_degenerate(q[0], q[1], q[2]) && mr_triangles_intersect(p, q);
+	return !c->bad[loop];
+}
+
+/* Finds the loops whose patches cross something: bad, one for each loop, false at first. */
+static void
+find_crossings(const filler *w, const mr_patches *patches, bool *bad)
+{
+	crossing c = { &patches->all, patches, w->m->nf, 0, bad };
+	mr_bvh *bvh;
+
+	mr_bvh_build(w->ctx, c.all, &bvh);
+	for (size_t f = c.before; f < c.all->nf; f++) {
+		mr_v3 p[3];
+		c.face = (uint32_t)f;
+		mr_corners(c.all, f, p);
+		if (!bad[loop_of(&c, f)])
+			mr_bvh_overlap(bvh, mr_box_of(p, 3), look_at_pair, &c);
+	}
+}
+
+static void
+report(const filler *w, const bool *bad, mr_fill_result *r)
+{
+	mr_finding f = { .kind = MR_LIMIT, .layer = w->m->name, .placed = true };
+
+	for (size_t l = w->n; l-- > 0;)
+		if (bad[l]) {
+			f.vertex = mr_he_from(w->m, w->loops.he[w->loops.start[w->hole[l].loop]]);
+			r->crossing++;
+		}
+	r->filled = w->n - r->crossing;
+	if (w->loops.broken)
+		mr_found(w->ctx, &(mr_finding){ .kind = MR_LIMIT,
+				     .layer = w->m->name,
+				     .what = mr_format(w->ctx,
+					 "open, as edges of three faces interrupt their boundary: %zu edges",
+					 w->loops.broken) });
+	if (r->crossing == 0)
+		return;
+	f.at = w->m->p[f.vertex];
+	f.what = mr_format(
+	    w->ctx, "open, as their filling would cross the surface: %zu of %zu holes", r->crossing, w->n);
+	mr_found(w->ctx, &f);
+}
+
+/* The rims of the loops that are filled, one after another. */
+static void
+list_rims(filler *w)
+{
+	for (size_t l = 0; l < w->n; l++)
+		w->rim += w->loops.start[w->hole[l].loop + 1] - w->loops.start[w->hole[l].loop];
+	w->he = MR_NEW(w->ctx, w->rim, uint32_t);
+	w->at = MR_NEW(w->ctx, w->rim, uint32_t);
+	MR_RESERVE(w->ctx, w->loop, 0, w->rim, &w->loop_room);
+	MR_RESERVE(w->ctx, w->edge, 0, w->rim, &w->edge_room);
+	for (size_t l = 0, i = 0; l < w->n; l++)
+		for (size_t k = w->loops.start[w->hole[l].loop]; k < w->loops.start[w->hole[l].loop + 1];
+		     k++) {
+			w->loop[i] = (uint32_t)l;
+			w->he[i++] = w->loops.he[k];
+		}
+}
+
+mr_status
+mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out, mr_fill_result *result)
+{
+	filler w = { .ctx = ctx, .m = m, .o = o };
+	bool *bad;
+
+	mr_loops_find(ctx, m, &w.loops);
+	choose_loops(&w);
+	list_rims(&w);
+	bad = MR_NEW_ZERO(ctx, w.n + 1, bool);
+	*result = (mr_fill_result){ .loops = w.loops.count };
+	if (w.n > 0) {
+		look_around(&w);
+		MR_TRY(span_loops(&w));
+		MR_TRY(refine(&w));
+		MR_TRY(fair(&w, 1));
+		for (int i = 0; i < 2 && o->order > 1; i++) {
+			MR_TRY(refine(&w));
+			MR_TRY(fair(&w, o->order));
+		}
+	}
+	gather(&w, bad, out);
+	find_crossings(&w, out, bad);
+	report(&w, bad, result);
+	if (result->crossing)
+		gather(&w, bad, out);
+	result->vertices = out->m.nv - out->rim;
+	result->faces = out->m.nf;
+	return MR_OK;
+}

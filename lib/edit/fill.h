@@ -1,0 +1,28 @@
+/*
+ * fill.h -- boundary loops of a surface filled with patches that go on smoothly.
+ */
+#ifndef MR_EDIT_FILL_H
+#define MR_EDIT_FILL_H
+
+#include "mesh/mesh.h"
+
+/*
+ * The patches as a mesh of their own.  Its first `rim` vertices are at the starts of the half-edges he of the
+ * surface, loop by loop; all others are new, and follow those of the surface in the filled one, as faces do.
+ */
+typedef struct mr_patches {
+	mr_mesh m, all;
+	size_t rim;
+	const uint32_t *he;
+	const uint32_t *loop; /* of each vertex: which loop it fills */
+} mr_patches;
+
+/*
+ * Fills loops of m, any mesh: those that the options name; by default all but those whose length is that of a
+ * circle of more than a quarter of the area of their component.  A loop that no patch fills without crossing
+ * the surface or a shorter loop's patch stays open, and is reported.  out: in the arena.
+ */
+mr_status mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out,
+    mr_fill_result *result) MR_WARN_UNUSED;
+
+#endif

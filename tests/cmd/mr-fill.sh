@@ -1,0 +1,78 @@
+# Holes are filled: what was there stays, columns go on, options choose loops, what cannot be filled stays open.
+figures() {
+	mr-fill --stats stats.json "$@" >out.mrs
+	echo "$*: $(sed 's/.*\("loops".*\)}/\1/' stats.json | tr -d '"')"
+}
+topology() { mr-info "$@" | sed -n 's/^    topology *//p'; }
+
+echo 'a ball without its cap'
+mr-make sphere -n 3000 -o ball.mrs
+mr-crop --drop above:y,0.9 ball.mrs -o open.mrs
+figures open.mrs
+topology out.mrs
+mr-export -f off - <open.mrs | sed 1,2d >before
+mr-export -f off - <out.mrs | sed 1,2d >after
+grep -vxFf after before | wc -l
+mr-compare --json -a mesh -i out.mrs ball.mrs | grep -o '"both":{[^}]*}' | tr ',' '\n' | sed -n 's/.*"max":\([0-9.]*\).*/\1/p' |
+	awk '{ print ($1 < 0.02 ? "near the ball" : "far: " $1) }'
+mr-fill ball.mrs | cmp ball.mrs - >diff; mr-fill --no-history ball.mrs | cmp ball.mrs - && echo 'closed: as it was'
+
+echo 'loops: the rim of an open surface stays, options choose'
+mr-crop --drop above:y,0.9+above:x,0.5 --drop below:z,0.05 ball.mrs -o holes.mrs
+for o in '' '--loops 1' '--max-length 80%' '--max-length 1e-3' '-k 1' '-k 3'; do
+	figures $o holes.mrs
+	topology out.mrs
+done
+mr-make sphere -n 1000 | mr-crop --keep above:y,0.6 -o dome.mrs
+figures dome.mrs
+figures --loops 1 dome.mrs
+topology out.mrs
+
+echo 'loops that touch at a vertex'
+awk 'BEGIN {
+	for (i = 0; i < 36; i++) print "v", i % 6, int(i / 6), 0
+	for (i = 0; i < 30; i++) if (i % 6 < 5 && i != 14 && i != 21) print "f", i + 1, i + 2, i + 8, i + 7
+}' >touch.obj
+mr-import touch.obj | mr-fill --stats stats.json | mr-info | grep topology
+
+echo 'colours go on, labels are those around, polygons stay'
+cat >cube.obj <<'OBJ'
+usemtl red
+v 0 0 0 1 0 0
+v 1 0 0 1 0 0
+v 1 1 0 1 0 0
+v 0 1 0 1 0 0
+v 0 0 1 0 0 1
+v 1 0 1 0 0 1
+v 1 1 1 0 0 1
+v 0 1 1 0 0 1
+f 4 3 2 1
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+OBJ
+mr-import cube.obj | mr-fill --loops 1 | mr-export -f obj - | grep -v '^#'
+mr-import cube.obj | mr-subdivide --longest 0.2 | mr-fill --loops 1 | mr-export -q -f ply-ascii - |
+	sed -n '/end_header/,$p' | awk 'NF > 5 && $3 > 1 { print $4, $5, $6 }' | sort | uniq -c | awk '{ print $2, $3, $4 }'
+
+echo 'a filling that would cross the surface'
+cat >crossing.off <<'END'
+OFF
+7 5 0
+0 0 1
+1 -1 0
+1 1 0
+-1 0 0
+0.2 0.1 -1
+0.2 -0.1 2
+0.3 0 0.5
+3 0 1 2
+3 0 2 3
+3 0 3 1
+3 4 5 6
+3 6 5 4
+END
+mr-import -q crossing.off | mr-fill --loops 1 --stats stats.json 2>err >out.mrs
+sed 's/.*\("loops".*\)}/\1/' stats.json | tr -d '"'
+cat err
