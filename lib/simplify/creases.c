@@ -9,12 +9,12 @@
 #include "mesh/guarded_move.h"
 #include "space/local_planes.h"
 
-/*
- * Points within REACH of a vertex count, if those around them lie in a plane: a sharp edge among them gives
- * them a greater variation than FLAT.
- */
+/* Points within REACH of a place count for it. */
 enum { AROUND = 10, NEAREST = 32, LEAST = 8, ROUNDS = 5, SPREAD = 3 };
-static const double REACH = 3, FLAT = 0.002, THROUGH = 0.3;
+static const double REACH = 3;
+
+/* Variation of points in a plane, at most; a neighbour's plane is better where FLATTER times as flat. */
+static const double FLAT = 0.002, FLATTER = 4;
 
 /* Vertices that are looked at first, and the share of them that must be sharp. */
 enum { SOME = 512 };
@@ -27,8 +27,8 @@ static const double OWN = 0.1;
 /* How far a vertex of a wrap goes: further on it is one of the next row. */
 static const double FARTHEST = 2;
 
-/* Degrees between the planes on both sides; a curve may go on with less. */
-static const double ANGLE = 40, WEAK = 30;
+/* Degrees between the planes on both sides. */
+static const double ANGLE = 40;
 
 /* Normals within that many degrees are of one side. */
 static const double ALIKE = 25;
@@ -36,12 +36,12 @@ static const double ALIKE = 25;
 /* The cosine between a face and its side: less is a fold. */
 static const double UPRIGHT = 0.5;
 
-/* A sharp edge has at least SHARE_ON of the points within SEEN of it within ON of one of its two planes. */
-enum { LEAST_SEEN = 4 };
-static const double SEEN = 2, ON = 0.25, SHARE_ON = 0.75;
+/* Points count across a curve within that many spacings along it, and further than GAP from it. */
+static const double ALONG = 1.5, GAP = 0.5;
 
-/* Edges of the surface that a curve crosses, at least. */
-enum { PIECE = 12 };
+/* The share of its angle that a curve jumps by, at least, as if EVEN more edges that cross it did not jump.
+ */
+static const double JUMP = 0.7, EVEN = 2;
 
 /* Planes met from a place: A = sum n n^T, b = sum n (n . to the point). */
 typedef struct meeting {
@@ -93,7 +93,7 @@ typedef struct sight {
 static bool
 counts(const sight *s, uint32_t i, mr_v3 at, mr_v3 *r, double *height)
 {
-	if (i == UINT32_MAX || s->planes.variation[i] >= FLAT)
+	if (i == UINT32_MAX)
 		return false;
 	*r = mr_sub(s->p[i], at);
 	*height = mr_dot(*r, s->planes.normal[i]);
@@ -108,7 +108,7 @@ is_sharp(const sight *s, const uint32_t *near, mr_v3 at)
 	mr_v3 r, x;
 
 	for (int i = 0; i < NEAREST; i++)
-		if (counts(s, near[i], at, &r, &height))
+		if (counts(s, near[i], at, &r, &height) && s->planes.variation[near[i]] < FLAT)
 			meet(&m, s->planes.normal[near[i]], height);
 	return m.count >= LEAST && solve(&m, OWN, &x) > 1 && mr_norm(x) < FARTHEST * s->width;
 }
@@ -167,7 +167,7 @@ mean_like(const sight *s, const uint32_t *near, mr_v3 at, mr_v3 normal)
 		if (sign * mr_dot(n, normal) < like)
 			continue;
 		t = mr_norm(r) / (REACH * s->width);
-		w = (1 - t * t) * (FLAT - s->planes.variation[near[i]]);
+		w = (1 - t * t) / (FLAT + s->planes.variation[near[i]]);
 		w *= w;
 		sum.normal = mr_axpy(sign * w, n, sum.normal);
 		sum.height += sign * w * height;
@@ -178,23 +178,21 @@ mean_like(const sight *s, const uint32_t *near, mr_v3 at, mr_v3 normal)
 	return sum;
 }
 
-/* Of a point whose neighbours show no plane, but one of theirs goes through it: that one's plane. */
+/* The neighbour of a point whose plane goes through it and is far flatter than its own. */
 static uint32_t
-plane_through(const sight *s, const uint8_t *known, size_t i)
+plane_through(const sight *s, size_t i)
 {
 	uint32_t best = MR_NONE;
-	double least = INFINITY;
+	double least = s->planes.variation[i] / FLATTER;
 
 	for (size_t k = 0; k < s->planes.links; k++) {
 		uint32_t j = s->planes.neighbor[i * s->planes.links + k];
-		mr_v3 r;
 		double off, far;
-		if (j == UINT32_MAX || !known[j])
+		if (j == UINT32_MAX)
 			continue;
-		r = mr_sub(s->p[j], s->p[i]);
-		off = fabs(mr_dot(r, s->planes.normal[j]));
-		far = off + 0.1 * mr_norm(r);
-		if (off < THROUGH * s->width && far < least) {
+		off = mr_dot(mr_sub(s->p[j], s->p[i]), s->planes.normal[j]) / s->width;
+		far = s->planes.variation[j] + off * off;
+		if (far < least) {
 			least = far;
 			best = j;
 		}
@@ -204,7 +202,7 @@ plane_through(const sight *s, const uint8_t *known, size_t i)
 
 /* The plane of a point and of those of its neighbours that are on its side. */
 static void
-fit_side(const sight *s, const mr_v3 *normal, const uint8_t *known, size_t i)
+fit_side(const sight *s, const mr_v3 *normal, size_t i)
 {
 	double like = cos(ALIKE * MR_PI / 180), variation;
 	mr_v3 p[AROUND] = { s->p[i] }, n;
@@ -212,15 +210,13 @@ fit_side(const sight *s, const mr_v3 *normal, const uint8_t *known, size_t i)
 
 	for (size_t k = 0; k < s->planes.links; k++) {
 		uint32_t j = s->planes.neighbor[i * s->planes.links + k];
-		if (j != UINT32_MAX && known[j] && fabs(mr_dot(normal[j], normal[i])) > like)
+		if (j != UINT32_MAX && fabs(mr_dot(normal[j], normal[i])) > like)
 			p[count++] = s->p[j];
 	}
 	n = count > 4 ? mr_plane_fit(p, count, &variation) : normal[i];
-	if (count > 4 && variation < FLAT && fabs(mr_dot(n, normal[i])) > like) {
+	if (count > 4 && fabs(mr_dot(n, normal[i])) > like) {
 		s->planes.normal[i] = n;
 		s->planes.variation[i] = variation;
-	} else {
-		s->planes.variation[i] = FLAT / 2;
 	}
 }
 
@@ -228,25 +224,27 @@ fit_side(const sight *s, const mr_v3 *normal, const uint8_t *known, size_t i)
 static void
 spread(mr_ctx *ctx, const sight *s, size_t n)
 {
-	uint8_t *known = MR_NEW(ctx, n, uint8_t);
+	uint8_t *taken = MR_NEW_ZERO(ctx, n, uint8_t);
 	uint32_t *from = MR_NEW(ctx, n, uint32_t);
 	mr_v3 *normal = MR_NEW(ctx, n, mr_v3);
+	double *variation = MR_NEW(ctx, n, double);
 
-	for (size_t i = 0; i < n; i++)
-		known[i] = s->planes.variation[i] < FLAT;
 	for (int round = 0; round < SPREAD; round++) {
 		for (size_t i = 0; i < n; i++)
-			from[i] = known[i] ? MR_NONE : plane_through(s, known, i);
+			from[i] = plane_through(s, i);
+		memcpy(normal, s->planes.normal, n * sizeof *normal);
+		memcpy(variation, s->planes.variation, n * sizeof *variation);
 		for (size_t i = 0; i < n; i++)
 			if (from[i] != MR_NONE) {
-				s->planes.normal[i] = s->planes.normal[from[i]];
-				known[i] = 2;
+				s->planes.normal[i] = normal[from[i]];
+				s->planes.variation[i] = variation[from[i]];
+				taken[i] = 1;
 			}
 	}
 	memcpy(normal, s->planes.normal, n * sizeof *normal);
 	for (size_t i = 0; i < n; i++)
-		if (known[i] == 2)
-			fit_side(s, normal, known, i);
+		if (taken[i])
+			fit_side(s, normal, i);
 }
 
 /* The plane that a place is nearest to. */
@@ -260,7 +258,8 @@ side_of(const sight *s, const uint32_t *near, mr_v3 at, mr_v3 outer)
 		double far;
 		if (!counts(s, near[i], at, &r, &height))
 			continue;
-		far = fabs(height) + 0.2 * mr_norm(r) + 5 * s->width * sqrt(s->planes.variation[near[i]]);
+		far = s->planes.variation[near[i]] +
+		      (height * height + 0.04 * mr_norm2(r)) / (s->width * s->width);
 		if (far < least) {
 			least = far;
 			best = s->planes.normal[near[i]];
@@ -308,107 +307,130 @@ place_on(const finder *f, uint32_t h)
 	return mr_axpy(x + y > 0 ? fmin(0.9, fmax(0.1, x / (x + y))) : 0.5, e, f->m->p[a]);
 }
 
-/* The share of the points around `at`, on the edge of h, that lie on the sides that meet there. */
-static double
-seen(const finder *f, uint32_t h, mr_v3 at, const uint32_t *near)
-{
-	mr_v3 n[2], x;
-	meeting s = { .count = 0 };
-	int on = 0, all = 0;
+/* Sums of a fit y = mean + slope x + jump h: of the weights, and of their products with x, h and y. */
+enum { W, WX, WXX, WH, WXH, WY, WXY, WHY, SUMS };
 
-	for (int k = 0; k < 2; k++) {
-		uint32_t v = k ? mr_he_to(f->m, h) : mr_he_from(f->m, h);
-		n[k] = f->side[v].normal;
-		meet(&s, n[k], f->side[v].height + mr_dot(n[k], mr_sub(f->m->p[v], at)));
-	}
-	if (solve(&s, OWN / 4, &x) < 2 || mr_norm(x) > REACH * f->s.width)
-		return 0;
-	x = mr_add(at, x);
-	for (int i = 0; i < NEAREST && near[i] != UINT32_MAX; i++) {
-		mr_v3 r = mr_sub(f->s.p[near[i]], x);
-		if (mr_norm(r) > SEEN * f->s.width)
-			continue;
-		all++;
-		on += fmin(fabs(mr_dot(r, n[0])), fabs(mr_dot(r, n[1]))) < ON * f->s.width;
-	}
-	return all >= LEAST_SEEN ? (double)on / all : 0;
-}
+/* Where an edge of the surface crosses a curve. */
+typedef struct crossing {
+	uint32_t h;
+	bool off;
+	double sum[SUMS];
+} crossing;
 
-/* Each share becomes the mean along the curve. */
+/* Sums up how the normals of points turn across the edge of c, in halves of its angle. */
 static void
-even_out(mr_ctx *ctx, const finder *f, const double *angle, double *share)
+look_across(const finder *f, const uint32_t *near, mr_v3 at, crossing *c)
 {
-	size_t nh = 3 * f->m->nf;
-	double *sum = MR_NEW(ctx, nh, double);
-	uint32_t *count = MR_NEW(ctx, nh, uint32_t);
+	mr_v3 a = f->side[mr_he_from(f->m, c->h)].normal, b = f->side[mr_he_to(f->m, c->h)].normal;
+	mr_v3 e = mr_sub(f->m->p[mr_he_to(f->m, c->h)], f->m->p[mr_he_from(f->m, c->h)]);
+	mr_v3 along = mr_unit(mr_cross(a, b)), out = mr_unit(mr_add(a, b)), across = mr_cross(along, out);
+	double half = mr_angle(a, b) / 2, sign = mr_dot(e, across) * mr_dot(b, across) > 0 ? 1 : -1;
 
-	for (int round = 0; round < ROUNDS; round++) {
-		memcpy(sum, share, nh * sizeof *sum);
-		for (size_t h = 0; h < nh; h++)
-			count[h] = 1;
-		for (uint32_t h = 0; h < nh; h++) {
-			uint32_t n = mr_he_next(h), a = edge_of(f, h), b = edge_of(f, n);
-			if (!(angle[h] > WEAK) || !(angle[n] > WEAK))
-				continue;
-			sum[a] += share[b];
-			sum[b] += share[a];
-			count[a]++;
-			count[b]++;
-		}
-		for (size_t h = 0; h < nh; h++)
-			share[h] = sum[h] / count[h];
+	if (mr_dot(e, across) < 0)
+		across = mr_mul(-1, across);
+	for (int i = 0; i < NEAREST && near[i] != UINT32_MAX; i++) {
+		mr_v3 r = mr_mul(1 / f->s.width, mr_sub(f->s.p[near[i]], at)),
+		      n = f->s.planes.normal[near[i]];
+		double d = mr_norm(r) / REACH, x = mr_dot(r, across) / cos(half);
+		double u = mr_dot(r, along) / ALONG, h = x > 0 ? 1 : -1, y, w;
+		if (mr_dot(n, out) < 0)
+			n = mr_mul(-1, n);
+		y = sign * atan2(mr_dot(n, across), mr_dot(n, out));
+		if (d >= 1 || fabs(u) >= 1 || fabs(x) < GAP || fabs(y) > half + 0.5 ||
+		    fabs(mr_dot(n, along)) > 0.5)
+			continue;
+		w = (1 - u * u) * (1 - d * d) / (FLAT + f->s.planes.variation[near[i]]);
+		y /= half;
+		c->sum[W] += w;
+		c->sum[WX] += w * x;
+		c->sum[WXX] += w * x * x;
+		c->sum[WH] += w * h;
+		c->sum[WXH] += w * h * x;
+		c->sum[WY] += w * y;
+		c->sum[WXY] += w * x * y;
+		c->sum[WHY] += w * h * y;
 	}
 }
 
-/* Takes back the angles of edges whose sides are not seen to meet. */
+/* The jump that fits best: 1 where the normals turn at the curve only, 0 where evenly across it. */
+static double
+jump_of(const double *s)
+{
+	double xx = s[WXX] - s[WX] * s[WX] / s[W], xh = s[WXH] - s[WX] * s[WH] / s[W],
+	       hh = s[W] - s[WH] * s[WH] / s[W], xy = s[WXY] - s[WX] * s[WY] / s[W],
+	       hy = s[WHY] - s[WH] * s[WY] / s[W];
+
+	return (xx * hy - xh * xy) / (xx * hh - xh * xh);
+}
+
+/* Drops the curves, from corner to corner, across which the normals turn evenly, and those that are too short
+ * to tell. */
+static bool
+drop_curves(mr_ctx *ctx, const finder *f, crossing *c, size_t n)
+{
+	mr_mark here = mr_mark_take(ctx);
+	uint32_t *set = mr_sets_new(ctx, n);
+	double(*sum)[SUMS] = mr_alloc(ctx, n, sizeof *sum), *edges = MR_NEW_ZERO(ctx, n, double);
+	bool any = false;
+
+	memset(sum, 0, n * sizeof *sum);
+	for (uint32_t t = 0; t < f->m->nf; t++) {
+		uint32_t in[3], k = 0;
+		for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
+			if (f->middle[h] != MR_NONE)
+				in[k++] = f->middle[h];
+		if (k == 2)
+			mr_sets_join(set, in[0], in[1]);
+	}
+	for (size_t i = 0; i < n; i++) {
+		uint32_t curve = mr_sets_root(set, (uint32_t)i);
+		edges[curve]++;
+		for (int k = 0; k < SUMS; k++)
+			sum[curve][k] += c[i].sum[k];
+	}
+	for (size_t i = 0; i < n; i++) {
+		uint32_t curve = mr_sets_root(set, (uint32_t)i), twin = f->topo.twin[c[i].h];
+		if (c[i].off || jump_of(sum[curve]) * edges[curve] >= JUMP * (edges[curve] + EVEN))
+			continue;
+		any = c[i].off = true;
+		f->middle[c[i].h] = MR_NONE;
+		if (twin != MR_NONE)
+			f->middle[twin] = MR_NONE;
+	}
+	mr_mark_release(ctx, here);
+	return any;
+}
+
+/* Numbers the edges that are crossed by curves. */
 static mr_status
-look_closer(mr_ctx *ctx, const finder *f, const mr_simplify_cloud *c, double *angle)
+cut_edges(mr_ctx *ctx, finder *f, const mr_simplify_cloud *cloud)
 {
 	size_t nh = 3 * f->m->nf, n = 0;
-	mr_v3 *at = MR_NEW(ctx, nh, mr_v3);
-	double *share = MR_NEW_ZERO(ctx, nh, double);
 	uint32_t *near;
+	crossing *c;
+	mr_v3 *at;
 
-	for (uint32_t h = 0; h < nh; h++)
-		if (angle[h] > WEAK && edge_of(f, h) == h)
-			at[n++] = place_on(f, h);
+	for (uint32_t h = 0; h < nh; h++) {
+		uint32_t e = edge_of(f, h);
+		f->middle[h] = e < h ? f->middle[e] : bend(f, h) > ANGLE ? (uint32_t)n++ : MR_NONE;
+	}
+	c = MR_NEW_ZERO(ctx, n, crossing);
+	at = MR_NEW(ctx, n, mr_v3);
 	near = mr_alloc(ctx, n, NEAREST * sizeof *near);
-	MR_TRY(mr_near_query(ctx, c->near, at, n, NEAREST, near, NULL));
-	n = 0;
 	for (uint32_t h = 0; h < nh; h++)
-		if (angle[h] > WEAK && edge_of(f, h) == h) {
-			share[h] = seen(f, h, at[n], near + NEAREST * n);
-			n++;
+		if (f->middle[h] != MR_NONE && edge_of(f, h) == h) {
+			c[f->middle[h]].h = h;
+			at[f->middle[h]] = place_on(f, h);
 		}
-	even_out(ctx, f, angle, share);
-	for (uint32_t h = 0; h < nh; h++)
-		if (share[edge_of(f, h)] < SHARE_ON)
-			angle[h] = 0;
-	return MR_OK;
-}
-
-/* Numbers the edges that are crossed by curves long enough. */
-static mr_status
-cut_edges(mr_ctx *ctx, finder *f, const mr_simplify_cloud *c)
-{
-	size_t nh = 3 * f->m->nf;
-	uint32_t *set = mr_sets_new(ctx, nh), *size = MR_NEW_ZERO(ctx, nh, uint32_t);
-	double *angle = MR_NEW(ctx, nh, double);
-
-	for (uint32_t h = 0; h < nh; h++)
-		angle[h] = bend(f, h);
-	MR_TRY(look_closer(ctx, f, c, angle));
-	for (uint32_t t = 0; t < f->m->nf; t++)
-		for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
-			if (angle[h] > WEAK && angle[mr_he_next(h)] > WEAK)
-				mr_sets_join(set, edge_of(f, h), edge_of(f, mr_he_next(h)));
-	for (uint32_t h = 0; h < nh; h++)
-		size[mr_sets_root(set, h)] += edge_of(f, h) == h && angle[h] > ANGLE;
+	MR_TRY(mr_near_query(ctx, cloud->near, at, n, NEAREST, near, NULL));
+	for (size_t i = 0; i < n; i++)
+		look_across(f, near + NEAREST * i, at[i], &c[i]);
+	for (int round = 0; round < ROUNDS && drop_curves(ctx, f, c, n); round++)
+		;
 	f->cut = 0;
 	for (uint32_t h = 0; h < nh; h++) {
-		uint32_t e = edge_of(f, h), piece = mr_sets_root(set, e);
-		f->middle[h] = MR_NONE;
-		if (angle[h] > WEAK && size[piece] >= PIECE)
+		uint32_t e = edge_of(f, h);
+		if (f->middle[h] != MR_NONE)
 			f->middle[h] = e < h ? f->middle[e] : (uint32_t)(f->m->nv + f->cut++);
 	}
 	return MR_OK;

@@ -36,7 +36,7 @@ done
 
 echo 'edits, equalizing, maps and mirrors keep them'
 mr-equalize --gain 1 scan.mrs --no-history | mr-decode --no-history -o equal.mrs
-mr-decode --no-history scan.mrs | mr-compare -a mesh -b mesh --json equal.mrs | grep -o '"vertex_max_relative":[0-9.]*e-1[0-9]' | cut -c1-22
+mr-decode --no-history scan.mrs | mr-compare -a mesh -b mesh --json equal.mrs | grep -oE '"vertex_max_relative":(0}|[0-9.]*e-1[0-9])' | cut -c1-22
 mr-map -w cube scan.mrs | mr-map -r cube-height.png | mr-decode -o back.mrs
 [ "$(off back.mrs)" -le $((sharp + 1)) ] && echo 'maps do'
 mr-select --free all --handle 0=above:y,0.5 scan.mrs | mr-pose --translate 0,0,0 | mr-solve | mr-info | grep 'crease ' | cut -c1-30
