@@ -309,8 +309,9 @@ mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t
 static double
 median(double *x, size_t n)
 {
-	mr_sort_reals(x, n);
-	return n % 2 ? x[n / 2] : (x[n / 2 - 1] + x[n / 2]) / 2;
+	double high = mr_kth(x, n, n / 2);
+
+	return n % 2 ? high : (mr_kth(x, n, n / 2 - 1) + high) / 2;
 }
 
 typedef struct spikes {

@@ -44,7 +44,7 @@ typedef struct mr_valid {
 /*
  * The valid triangle of the line among n sights, the nearest first (Jeong, Kim 2001, section 5): the three
  * nearest, then all that the next completes, and so on; of several the line meets, the smallest.  The search
- * ends at the first triangles met that keep the bounds.
+ * ends at the first triangles met that keep the bounds; NULL: at the first that is met.
  */
 mr_valid mr_valid_triangle(const mr_sight *s, size_t n, const mr_bounds *b);
 
@@ -65,8 +65,8 @@ typedef struct mr_sample_cloud {
 	mr_v3f *side;   /* its unit normal: which way the sheet that the point belongs to looks */
 } mr_sample_cloud;
 
-/* Finds the nearest faces of the domain: c->face and c->side, in the arena.  off: the distances from them,
- * c->n, the caller's, or NULL. */
+/* Finds the nearest faces of the domain: c->face and c->side, in the arena. off:
+ * the distances from them, c->n, the caller's, or NULL. */
 void mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off);
 
 /* True where the point may belong to the sheet that looks along n. */

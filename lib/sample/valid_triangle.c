@@ -68,12 +68,14 @@ static void
 consider(const mr_sight *a, const mr_sight *b, const mr_sight *c, const double w[3], const mr_bounds *bounds,
     mr_valid *v)
 {
-	double sum = w[0] + w[1] + w[2], area = area_of(a, b, c) / 2;
+	double sum = w[0] + w[1] + w[2], area;
 	double height = (w[0] * a->t + w[1] * b->t + w[2] * c->t) / sum;
 
-	if ((v->taken && area >= v->area) || fabs(height) > bounds->height ||
-	    sum < 2 * area * bounds->cosine || dist2(a, b) > bounds->edge2 || dist2(b, c) > bounds->edge2 ||
+	if (fabs(height) > bounds->height || dist2(a, b) > bounds->edge2 || dist2(b, c) > bounds->edge2 ||
 	    dist2(c, a) > bounds->edge2)
+		return;
+	area = area_of(a, b, c) / 2;
+	if ((v->taken && area >= v->area) || sum < 2 * area * bounds->cosine)
 		return;
 	v->taken = true;
 	v->area = area;
@@ -85,20 +87,27 @@ static void
 complete(const mr_sight *s, size_t m, const mr_bounds *bounds, mr_valid *v)
 {
 	double c[MR_SAMPLE_MOST];
+	uint8_t left[MR_SAMPLE_MOST];
+	size_t n = 0;
 
-	for (size_t i = 0; i < m; i++)
+	for (size_t i = 0; i < m; i++) {
 		c[i] = cross(&s[i], &s[m]);
+		if (!(c[i] < 0))
+			left[n++] = (uint8_t)i;
+	}
 	for (size_t a = 0; a < m; a++) {
 		if (c[a] > 0)
 			continue;
-		for (size_t b = 0; b < m; b++) {
+		for (size_t i = 0; i < n; i++) {
 			/* the line, at the origin, is left of a b, of b m and of m a */
-			double ab;
-			if (c[b] < 0 || b == a || !((ab = cross(&s[a], &s[b])) >= 0) ||
-			    !(ab + c[b] - c[a] > 0))
+			size_t b = left[i];
+			double ab = cross(&s[a], &s[b]);
+			if (b == a || !(ab >= 0) || !(ab + c[b] - c[a] > 0))
 				continue;
 			if (!v->points)
 				v->points = m + 1;
+			if (!bounds)
+				return;
 			consider(&s[a], &s[b], &s[m], (double[3]){ c[b], -c[a], ab }, bounds, v);
 		}
 	}
@@ -109,7 +118,7 @@ mr_valid_triangle(const mr_sight *s, size_t n, const mr_bounds *bounds)
 {
 	mr_valid v = { 0 };
 
-	for (size_t m = 2; m < n && !v.taken; m++)
+	for (size_t m = 2; m < n && !v.taken && (bounds || !v.points); m++)
 		complete(s, m, bounds, &v);
 	return v;
 }
@@ -145,7 +154,7 @@ search_vertices(void *arg, size_t begin, size_t end)
 	mr_sight sight[MR_SAMPLE_MOST];
 
 	for (size_t i = begin; i < end; i++) {
-		size_t v = s->vertex[i], n, near;
+		size_t v = s->vertex[i], n, near = 0;
 		mr_v3 normal = s->d->normal[v];
 		mr_bounds bounds;
 		mr_valid found;
@@ -157,11 +166,14 @@ search_vertices(void *arg, size_t begin, size_t end)
 			continue;
 		n = mr_sights(s->c->p, s->index + i * s->k, s->k, s->d->m.p[v], normal, sight);
 		bounds = bounds_of(s->dist2 + i * s->k, n);
-		found = mr_valid_triangle(sight, n, &bounds);
+		while (near < n && mr_same_side(s->c, sight[near].index, normal))
+			near++;
+		found = mr_valid_triangle(sight, n, near < n ? NULL : &bounds);
 		s->points[v] = (uint8_t)found.points;
-		near = mr_sights_near_sheet(s->c, normal, sight, n);
-		if (near < n)
+		if (near < n) {
+			near = mr_sights_near_sheet(s->c, normal, sight, n);
 			found = mr_valid_triangle(sight, near, &bounds);
+		}
 		s->hit[v] = found.taken;
 		s->height[v] = found.taken ? found.height : 0;
 	}

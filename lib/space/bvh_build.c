@@ -8,7 +8,8 @@
 #include "base/sort.h"
 #include "space/bvh_tree.h"
 
-enum { BINS = 16, DEEP = 32, TASKS = 32, TASK_LEAST = 12288 };
+/* A quarter of the bins where few are to be parted: the tree is as good, and sooner made. */
+enum { BINS = 16, FEW = 32, FEW_BINS = 4, DEEP = 32, TASKS = 32, TASK_LEAST = 12288 };
 
 static const float SLACK = 0x1p-22f;
 
@@ -89,30 +90,30 @@ longest_axis(const prim *p, size_t n, float *low, float *length)
 }
 
 static int
-bin_of(float c, float low, float factor)
+bin_of(float c, float low, float factor, int bins)
 {
 	int b = (int)((c - low) * factor);
 
-	return b < BINS ? b : BINS - 1;
+	return b < bins ? b : bins - 1;
 }
 
 /* The last bin of the left side where area times count, summed over both sides, is least. */
 static int
-best_bin(const fbox box[BINS], const size_t count[BINS])
+best_bin(const fbox box[BINS], const size_t count[BINS], int bins)
 {
 	double right_cost[BINS], best = INFINITY;
 	fbox side = fbox_empty();
 	size_t n = 0;
 	int at = 0;
 
-	for (int b = BINS - 1; b > 0; b--) {
+	for (int b = bins - 1; b > 0; b--) {
 		fbox_add(&side, box[b].lo, box[b].hi);
 		n += count[b];
 		right_cost[b] = n ? fbox_area(&side) * (double)n : INFINITY;
 	}
 	side = fbox_empty();
 	n = 0;
-	for (int b = 0; b < BINS - 1; b++) {
+	for (int b = 0; b < bins - 1; b++) {
 		fbox_add(&side, box[b].lo, box[b].hi);
 		n += count[b];
 		double cost = n ? fbox_area(&side) * (double)n + right_cost[b + 1] : INFINITY;
@@ -131,23 +132,23 @@ split(prim *p, size_t n, int depth)
 	fbox box[BINS];
 	size_t count[BINS] = { 0 }, i = 0, j = n;
 	float low, length, factor;
-	int axis = longest_axis(p, n, &low, &length), at;
+	int axis = longest_axis(p, n, &low, &length), bins = n < FEW ? FEW_BINS : BINS, at;
 
 	if (!(length > 0) || depth > DEEP)
 		return n / 2;
-	factor = BINS / length;
+	factor = (float)bins / length;
 	if (!isfinite(factor))
 		return n / 2;
-	for (int b = 0; b < BINS; b++)
+	for (int b = 0; b < bins; b++)
 		box[b] = fbox_empty();
 	for (size_t k = 0; k < n; k++) {
-		int b = bin_of(centroid(p + k, axis), low, factor);
+		int b = bin_of(centroid(p + k, axis), low, factor, bins);
 		fbox_add(&box[b], p[k].lo, p[k].hi);
 		count[b]++;
 	}
-	at = best_bin(box, count);
+	at = best_bin(box, count, bins);
 	while (i < j) {
-		if (bin_of(centroid(p + i, axis), low, factor) <= at) {
+		if (bin_of(centroid(p + i, axis), low, factor, bins) <= at) {
 			i++;
 		} else {
 			prim x = p[--j];
