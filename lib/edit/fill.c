@@ -185,14 +185,30 @@ span_loops(filler *w)
 
 /* ---- finer, and rounder ---- */
 
-/* By how much an edge is too long, at most 1: it is not.  One that the surface has already is. */
+/* Whether the face of h lies back on the surface at one of the rim's edges. */
+static bool
+lies_back(const filler *w, uint32_t h)
+{
+	mr_v3 n = mr_dyn_cross(&w->d, w->d.p, h / 3);
+	bool back = false;
+
+	for (int i = 0; i < 3; i++, h = mr_he_next(h))
+		back |= w->d.twin[h] == MR_NONE &&
+		        mr_dot(n, mr_face_cross(w->m, w->he[mr_dyn_to(&w->d, h)] / 3)) < 0;
+	return back;
+}
+
+/* By how much an edge is too long, at most 1: it is not.  So is one that the surface has already, or that a
+ * face needs to get off the surface. */
 static double
 excess(const filler *w, uint32_t h)
 {
 	uint32_t a = w->d.v[h], b = mr_dyn_to(&w->d, h);
 	double l = mr_dist(w->d.p[a], w->d.p[b]) / (w->edge[a] + w->edge[b]) * 1.5;
+	bool chord = a < w->rim && b < w->rim;
 
-	return are_joined(w, a, b) ? fmax(l, 2) : l;
+	return chord && (are_joined(w, a, b) || lies_back(w, h) || lies_back(w, w->d.twin[h])) ? fmax(l, 2)
+	                                                                                       : l;
 }
 
 /* Halves the inner edges that are longer than `coarser` times what they may be; what that makes is for later,
@@ -370,6 +386,7 @@ typedef struct crossing {
 	size_t before; /* faces of the surface */
 	uint32_t face; /* of a patch */
 	bool *bad;     /* of each loop */
+	bool crosses;  /* the face */
 } crossing;
 
 static uint32_t
@@ -382,7 +399,7 @@ loop_of(const crossing *c, size_t f)
 static bool
 look_at_pair(void *arg, uint32_t g)
 {
-	const crossing *c = arg;
+	crossing *c = arg;
 	uint32_t loop = loop_of(c, c->face);
 	mr_v3 p[3], q[3];
 
@@ -392,26 +409,58 @@ look_at_pair(void *arg, uint32_t g)
 		return true;
 	mr_corners(c->all, c->face, p);
 	mr_corners(c->all, g, q);
-	c->bad[loop] = !mr_triangle_degenerate(p[0], p[1], p[2]) &&
-	               !mr_triangle_degenerate(q[0], q[1], q[2]) && mr_triangles_intersect(p, q);
-	return !c->bad[loop];
+	c->crosses = !mr_triangle_degenerate(p[0], p[1], p[2]) && !mr_triangle_degenerate(q[0], q[1], q[2]) &&
+	             mr_triangles_intersect(p, q);
+	return !c->crosses;
 }
 
-/* Finds the loops whose patches cross something: bad, one for each loop, false at first. */
-static void
-find_crossings(const filler *w, const mr_patches *patches, bool *bad)
+/* Finds the loops whose patches cross something: bad, one for each loop, and the vertices of their faces that
+ * do.  Whether there is one. */
+static bool
+find_crossings(const filler *w, const mr_patches *patches, bool *bad, bool *at)
 {
-	crossing c = { &patches->all, patches, w->m->nf, 0, bad };
+	crossing c = { .all = &patches->all, .patches = patches, .before = w->m->nf, .bad = bad };
 	mr_bvh *bvh;
+	bool any = false;
 
+	memset(bad, 0, w->n * sizeof *bad);
+	memset(at, 0, w->d.nv * sizeof *at);
 	mr_bvh_build(w->ctx, c.all, &bvh);
 	for (size_t f = c.before; f < c.all->nf; f++) {
 		mr_v3 p[3];
 		c.face = (uint32_t)f;
 		mr_corners(c.all, f, p);
-		if (!bad[loop_of(&c, f)])
-			mr_bvh_overlap(bvh, mr_box_of(p, 3), look_at_pair, &c);
+		if (mr_bvh_overlap(bvh, mr_box_of(p, 3), look_at_pair, &c))
+			continue;
+		any = bad[loop_of(&c, f)] = true;
+		for (int k = 0; k < 3; k++)
+			at[patches->m.t[f - c.before].v[k]] = true;
 	}
+	return any;
+}
+
+/* Where patches cross something their vertices there go to the middle of their neighbours, some times; those
+ * that cross still are left out. */
+static mr_status
+settle(filler *w, bool *bad, mr_patches *out)
+{
+	enum { ROUNDS = 8 };
+	bool *at = MR_NEW(w->ctx, w->d.nv, bool);
+	mr_mark mark = mr_mark_take(w->ctx);
+	int i = 0;
+
+	gather(w, bad, out);
+	while (find_crossings(w, out, bad, at) && i++ < ROUNDS) {
+		for (uint32_t v = (uint32_t)w->rim; v < w->d.nv; v++)
+			if (at[v])
+				w->d.p[v] = mr_dyn_middle_around(&w->d, v);
+		memset(bad, 0, w->n * sizeof *bad);
+		mr_mark_release(w->ctx, mark);
+		gather(w, bad, out);
+	}
+	if (i > ROUNDS)
+		gather(w, bad, out);
+	return MR_OK;
 }
 
 static void
@@ -466,8 +515,9 @@ mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out, m
 	mr_loops_find(ctx, m, &w.loops);
 	choose_loops(&w);
 	list_rims(&w);
-	bad = MR_NEW_ZERO(ctx, w.n + 1, bool);
+	bad = MR_NEW_ZERO(ctx, w.n, bool);
 	*result = (mr_fill_result){ .loops = w.loops.count };
+	*out = (mr_patches){ .all = *m };
 	if (w.n > 0) {
 		look_around(&w);
 		MR_TRY(span_loops(&w));
@@ -477,12 +527,9 @@ mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out, m
 			MR_TRY(refine(&w));
 			MR_TRY(fair(&w, o->order));
 		}
+		MR_TRY(settle(&w, bad, out));
 	}
-	gather(&w, bad, out);
-	find_crossings(&w, out, bad);
 	report(&w, bad, result);
-	if (result->crossing)
-		gather(&w, bad, out);
 	result->vertices = out->m.nv - out->rim;
 	result->faces = out->m.nf;
 	return MR_OK;
