@@ -65,7 +65,7 @@ typedef struct mr_sample_cloud {
 	mr_v3f *side;   /* its unit normal: which way the sheet that the point belongs to looks */
 } mr_sample_cloud;
 
-/* Finds the nearest faces of the domain: c->face and c->side, in the arena. off:
+/* Finds the nearest faces of the domain, near enough: c->face and c->side, in the arena. off:
  * the distances from them, c->n, the caller's, or NULL. */
 void mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off);
 

@@ -7,6 +7,7 @@
 #include "space/bvh.h"
 #include "space/local_planes.h"
 #include "space/outlier.h"
+#include "space/surface_walk.h"
 
 #include <float.h>
 
@@ -24,20 +25,32 @@ is_open(const mr_loop *l)
 }
 
 typedef struct placing {
-	const mr_mesh *m;
-	const mr_bvh *bvh;
+	const mr_domain *d;
+	const mr_bvh *bvh; /* of the level below, if there is one: sooner made, and a walk does the rest */
+	size_t below;      /* 1, else 0 */
 	mr_sample_cloud *c;
 	double *off;
 } placing;
+
+/* The part of a face that a place on it is on, of the four of the next level. */
+static uint32_t
+part_at(mr_place at)
+{
+	return 4 * at.face + (at.bary.x > 0.5 ? 0 : at.bary.y > 0.5 ? 1 : at.bary.z > 0.5 ? 2 : 3);
+}
 
 static void
 place_points(void *arg, size_t begin, size_t end)
 {
 	const placing *x = arg;
+	const mr_topology *topo = &x->d->level[x->d->n].topo;
 
 	for (size_t i = begin; i < end; i++) {
-		mr_closest near = mr_bvh_closest(x->bvh, x->c->p[i]);
-		mr_v3 n = mr_unit(mr_face_cross(x->m, near.at.face));
+		mr_v3 q = x->c->p[i], n;
+		mr_closest near = mr_bvh_closest(x->bvh, q);
+		if (x->below)
+			near = mr_project_walk(&x->d->m, topo, part_at(near.at), q);
+		n = mr_unit(mr_face_cross(&x->d->m, near.at.face));
 		x->c->face[i] = near.at.face;
 		if (x->off)
 			x->off[i] = sqrt(near.dist2);
@@ -51,12 +64,15 @@ mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off
 	uint32_t *face = MR_NEW(ctx, c->n, uint32_t);
 	mr_v3f *side = MR_NEW(ctx, c->n, mr_v3f);
 	mr_mark mark = mr_mark_take(ctx);
-	placing x = { .m = &d->m, .c = c, .off = off };
+	size_t below = d->n > 0;
+	const mr_loop *l = &d->level[d->n - below];
+	mr_mesh m = { d->m.name, d->m.p, l->t, l->nv, l->nf };
+	placing x = { .d = d, .below = below, .c = c, .off = off };
 	mr_bvh *bvh;
 
 	c->face = face;
 	c->side = side;
-	mr_bvh_build(ctx, &d->m, &bvh);
+	mr_bvh_build(ctx, &m, &bvh);
 	x.bvh = bvh;
 	mr_parallel(ctx, c->n, 256, place_points, &x);
 	mr_mark_release(ctx, mark);
