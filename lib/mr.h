@@ -567,6 +567,9 @@ typedef struct mr_wrap_result {
 MR_API mr_status mr_shrinkwrap_frame(
     mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_result *result) MR_WARN_UNUSED;
 
+/* Vertices of boundaries, of seams of texture coordinates and borders of materials, or of a region. */
+typedef enum mr_lock { MR_LOCK_NONE, MR_LOCK_BOUNDARY, MR_LOCK_SEAMS, MR_LOCK_REGION } mr_lock;
+
 typedef struct mr_simplify_opts {
 	size_t faces; /* stop at so many, or one less; 0: by ratio */
 	double ratio; /* share of the faces to stop at; 0: by error; all 0: by the frame */
@@ -580,10 +583,15 @@ typedef struct mr_simplify_opts {
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */
 	const char *to;       /* layer that is written; NULL: the one that is simplified */
 	const char *layer;    /* NULL: control, else base, else mesh */
+	int lock;             /* mr_lock: which vertices stay, to the bit */
+	size_t region;        /* of MR_LOCK_REGION */
 	uint8_t **sharp;      /* NULL: none are kept; else in and out: see simplify/simplify.h */
+	const bool *fixed;    /* of each vertex: it stays; NULL: none does */
+	uint32_t **face;      /* NULL, or out: of each face of the result, one of before on its side of curves */
 } mr_simplify_opts;
 
-#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 0, 10, false, false, NULL, NULL, NULL, NULL)
+#define MR_SIMPLIFY_DEFAULTS                                                                                         \
+	MR_DEFAULTS(0, 0, 0, false, NULL, 0, 0, 10, false, false, NULL, NULL, NULL, MR_LOCK_NONE, 0, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces; /* of the result */

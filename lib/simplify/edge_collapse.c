@@ -183,6 +183,10 @@ mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m)
 		s->x = keep_volume(d, &m->ring, m->edge, &s->factor, s->x);
 	error = mr_quadric_at(&s->q, s->x);
 	m->p = mr_add(d->p[d->v[m->edge]], s->x);
+	for (int k = 0; k < 2; k++) { /* to the bit */
+		uint32_t v = k ? mr_dyn_to(d, m->edge) : d->v[m->edge];
+		m->p = d->kind[v] == MR_CORNER ? d->p[v] : m->p;
+	}
 	m->error2 = s->q.area > 0 ? error / s->q.area : 0;
 	m->cost = cost_of(s, error) * uneven(d, site, m->edge, m->ring.n);
 	return true;

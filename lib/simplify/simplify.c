@@ -28,6 +28,7 @@ typedef struct simplifier {
 	uint16_t *bucket;  /* of each such half-edge: its last one */
 	uint32_t *onto;    /* what each vertex was merged into, itself while it lives */
 	uint8_t *mark;     /* for the link condition */
+	uint32_t *source;  /* of each face: its number in the input */
 	size_t target;     /* faces to stop at; 0: no such limit */
 	double limit;      /* error to stop at; infinite: no such limit */
 	size_t most;       /* faces for whose sake more is merged than there is room for */
@@ -267,6 +268,21 @@ add_quadrics(simplifier *s)
 	}
 }
 
+/* Takes the numbers that half-edges had in the input for those of their faces; curves are those that it marks. */
+static void
+take_source(simplifier *s, const uint8_t *sharp)
+{
+	mr_dyn *d = &s->d;
+
+	s->source = MR_NEW(s->ctx, d->nf, uint32_t);
+	for (size_t f = 0; f < d->nf; f++)
+		s->source[f] = d->curve[3 * f] / 3;
+	for (size_t h = 0; h < 3 * d->nf; h++)
+		d->curve[h] = sharp && sharp[d->curve[h]] ? d->curve[h] : MR_NONE;
+	if (!sharp)
+		d->curve = NULL;
+}
+
 /* The mesh without its isolated vertices, neighbours close in memory. */
 static mr_status
 copy_mesh(simplifier *s, const mr_mesh *m)
@@ -292,14 +308,13 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 		d.at[v] = v;
 		d.kind[v] = d.out[v] == MR_NONE ? MR_DEAD : MR_SMOOTH;
 	}
-	if (s->o->sharp && *s->o->sharp) {
-		d.curve = MR_NEW(s->ctx, 3 * m->nf, uint32_t);
-		for (uint32_t h = 0; h < 3 * m->nf; h++)
-			d.curve[h] = (*s->o->sharp)[h] ? h : MR_NONE;
-	}
+	d.curve = MR_NEW(s->ctx, 3 * m->nf, uint32_t);
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		d.curve[h] = h;
 	MR_TRY(mr_dyn_compact(s->ctx, &d));
 	mr_dyn_order(s->ctx, &d);
 	s->d = d;
+	take_source(s, s->o->sharp ? *s->o->sharp : NULL);
 	return MR_OK;
 }
 
@@ -326,6 +341,9 @@ begin(simplifier *s, const mr_mesh *m)
 	s->faces = s->d.nf;
 	if (s->o->sharp)
 		find_sharp_edges(s, m);
+	for (uint32_t v = 0; s->o->fixed && v < s->d.nv; v++)
+		if (s->o->fixed[s->d.at[v]])
+			s->d.kind[v] = MR_CORNER;
 	for (uint32_t v = 0; v < s->d.nv; v++)
 		s->site[v].room = s->o->room ? s->o->room[s->d.at[v]] : INFINITY;
 	if (s->fine)
@@ -358,6 +376,7 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 	mr_tri *t = MR_NEW(s->ctx, s->faces, mr_tri);
 	uint32_t *number = MR_NEW(s->ctx, d->nv, uint32_t), nv = 0;
 	uint8_t *sharp = d->curve ? MR_NEW(s->ctx, 3 * d->nf, uint8_t) : NULL;
+	uint32_t *face = s->o->face ? MR_NEW(s->ctx, s->faces, uint32_t) : NULL;
 	size_t nf = 0;
 
 	if (sharp)
@@ -372,11 +391,15 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 			continue;
 		if (sharp)
 			memmove(sharp + 3 * nf, sharp + 3 * f, 3);
+		if (face)
+			face[nf] = s->source[f];
 		t[nf++] = (mr_tri){ { number[d->v[3 * f]], number[d->v[3 * f + 1]],
 		    number[d->v[3 * f + 2]] } };
 	}
 	if (s->o->sharp)
 		*s->o->sharp = sharp;
+	if (face)
+		*s->o->face = face;
 	number_onto(s, s->m->nv, number, onto);
 	*out = (mr_mesh){ s->m->name, p, t, nv, nf };
 	*r = (mr_simplify_result){ nv, nf, s->merges, 0, sqrt(s->error2) / s->scale };

@@ -5,6 +5,7 @@
 #include "edit/detail.h"
 #include "mesh/layers.h"
 #include "simplify/creases.h"
+#include "space/carry.h"
 #include "tool/sample.h"
 
 /* By default, but for control meshes. */
@@ -96,19 +97,57 @@ weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opt
 	return MR_OK;
 }
 
-/* Puts the result in the surface's place; a base goes on knowing where it lies on the mesh. */
+/* Puts the result in the surface's place, with what this knows; a base goes on knowing where it lies on the mesh.
+ * s: all but the places; without faces nothing goes along. */
 static mr_status
-replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
+replace(mr_ctx *ctx, mr_frame *f, const uint32_t *onto, mr_successor s)
 {
-	mr_places over, source;
-	bool mapped = false;
+	const mr_mesh *m = s.before, *out = s.after;
+	mr_carried *carried;
+	mr_places source;
+	bool mapped = false, is_base = !strcmp(m->name, "base"), carries = s.face && mr_layer_carries(f, m->name);
+	size_t n = 0;
 
-	if (!strcmp(m->name, "base")) {
-		MR_TRY(mr_simplify_map(ctx, m, out, onto, &over));
-		MR_TRY(mr_source_map_follow(ctx, f, m, &over, out->nv, &source, &mapped));
-	}
+	if (carries || is_base)
+		MR_TRY(mr_simplify_map(ctx, m, out, onto, &s.place));
+	if (carries)
+		MR_TRY(mr_carry_columns(ctx, f, &s, &carried, &n));
+	if (is_base)
+		MR_TRY(mr_source_map_follow(ctx, f, m, &s.place, out->nv, &source, &mapped));
 	MR_TRY(mr_layer_replace(ctx, f, m->name, out));
+	for (size_t i = 0; i < n; i++)
+		MR_TRY(mr_carried_put(ctx, f, m->name, &carried[i]));
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
+}
+
+/* The vertices that stay: those of boundaries, of seams or of a region. */
+static mr_status
+lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam, mr_simplify_opts *o)
+{
+	bool *fixed = MR_NEW_ZERO(ctx, m->nv, bool);
+	const uint32_t *region = NULL;
+
+	if (o->lock == MR_LOCK_REGION)
+		MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &region));
+	for (size_t v = 0; region && v < m->nv; v++)
+		fixed[v] = region[v] == o->region;
+	for (uint32_t h = 0; !region && h < 3 * m->nf; h++)
+		if (o->lock == MR_LOCK_BOUNDARY ? topo->twin[h] == MR_NONE : seam && seam[h])
+			fixed[mr_he_from(m, h)] = fixed[mr_he_to(m, h)] = true;
+	o->fixed = fixed;
+	return MR_OK;
+}
+
+/* What stays of a surface whose place the result takes: its seams, and what is locked. */
+static mr_status
+hold(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_simplify_opts *o, uint8_t **seam)
+{
+	mr_topology topo;
+
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	if (!o->to)
+		MR_TRY(mr_layer_seams(ctx, f, m, &topo, seam));
+	return o->lock ? lock(ctx, f, m, &topo, *seam, o) : MR_OK;
 }
 
 /* Whether it makes the control mesh of a mesh, whose faces tell its sharp edges. */
@@ -155,8 +194,8 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	mr_simplify_cloud points;
 	mr_mesh m, surface, out;
 	const char *layer;
-	uint32_t *onto;
-	uint8_t *marks = NULL;
+	uint32_t *onto, *face;
+	uint8_t *marks = NULL, *seam = NULL;
 	bool look;
 
 	MR_TRY(mr_check_number(ctx, "ratio", o.ratio, 0, 1));
@@ -175,14 +214,20 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
 		limit_by_frame(ctx, &surface, &points, &o);
 	onto = MR_NEW(ctx, surface.nv, uint32_t);
+	if (!marks)
+		MR_TRY(hold(ctx, f, &surface, &o, &seam));
+	if (!marks)
+		o.face = &face;
+	if (seam)
+		marks = seam;
 	if (marks || (of_mesh(&o) && !o.smooth))
 		o.sharp = &marks;
 	MR_TRY(mr_simplify(ctx, &surface, &o, &out, onto, r));
 	r->creases = look || o.creases ? 0 : MR_UNKNOWN;
 	if (points.n > 0)
 		MR_TRY(mr_sample_report_move(ctx, f, "points"));
-	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
-	if (o.sharp)
+	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, onto, (mr_successor){ &m, &out, seam, seam ? marks : NULL, o.face ? face : NULL, { NULL, NULL } }));
+	if (o.sharp && !seam)
 		MR_TRY(put_marks(ctx, f, &out, marks, &r->creases));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);
 }

@@ -1,0 +1,226 @@
+/* Columns go along by places: where vertices and corners of the new surface are on the old one. */
+#include "space/carry.h"
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "space/surface_walk.h"
+
+/* Texture coordinates that differ by less are the same: pictures have up to 16,384 texels a side. */
+static const double SAME = 1e-6;
+
+/* ---- seams ---- */
+
+static bool
+is_of_corners(const mr_column *c)
+{
+	return c->shape.element == 'f' && c->shape.components % 3 == 0 && !strncmp(c->name, "corner_", 7);
+}
+
+/* Labels whose borders are seams. */
+static bool
+is_bordered(const char *name)
+{
+	return !strcmp(name, "material") || !strcmp(name, "group") || !strcmp(name, "object");
+}
+
+static bool
+same(const double *a, const double *b, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		if (!(fabs(a[i] - b[i]) < SAME) && !(isnan(a[i]) && isnan(b[i])))
+			return false;
+	return true;
+}
+
+/* At both ends: at the pole of a sphere they jump from face to face. */
+static void
+mark_jumps(const mr_mesh *m, const mr_topology *topo, const mr_column *c, uint8_t *seam)
+{
+	size_t wide = c->shape.components / 3;
+	const double *x = c->data;
+
+	for (uint32_t h = 0; h < 3 * m->nf; h++) {
+		uint32_t g = topo->twin[h];
+		if (g != MR_NONE && !same(x + wide * h, x + wide * mr_he_next(g), wide) &&
+		    !same(x + wide * mr_he_next(h), x + wide * g, wide))
+			seam[h] = 1;
+	}
+}
+
+static void
+mark_borders(const mr_mesh *m, const mr_topology *topo, const mr_column *c, uint8_t *seam)
+{
+	const uint32_t *x = c->data;
+
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		seam[h] |= topo->twin[h] != MR_NONE && x[h / 3] != x[topo->twin[h] / 3];
+}
+
+mr_status
+mr_layer_seams(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, uint8_t **seam)
+{
+	uint8_t *mark = MR_NEW_ZERO(ctx, 3 * m->nf, uint8_t);
+	bool any = false;
+
+	for (size_t i = 0; i < f->count; i++) {
+		mr_column *c = &f->columns[i];
+		if (strcmp(c->layer, m->name) || c->rows != m->nf)
+			continue;
+		MR_TRY(mr_column_decode(ctx, c));
+		if (!strcmp(c->name, "corner_texcoord"))
+			mark_jumps(m, topo, c, mark);
+		else if (c->shape.type == 'u' && is_bordered(c->name))
+			mark_borders(m, topo, c, mark);
+	}
+	for (size_t h = 0; h < 3 * m->nf; h++)
+		any |= mark[h];
+	*seam = any ? mark : NULL;
+	return MR_OK;
+}
+
+/* ---- corners ---- */
+
+typedef struct corner_job {
+	const mr_successor *s;
+	mr_mesh cut; /* before, its vertices apart along the seams */
+	mr_topology topo;
+	bool *on;         /* of each vertex of after: a seam */
+	uint32_t *parent; /* three corners of before for each of after, and their weights */
+	double *weight;
+} corner_job;
+
+/* From its own face's side; but a walk may end before the nearest place, which is one where no seam is. */
+static mr_place
+place_corner(const corner_job *j, size_t c)
+{
+	const mr_successor *s = j->s;
+	uint32_t v = s->after->t[c / 3].v[c % 3];
+	mr_closest walked = mr_project_walk(&j->cut, &j->topo, s->face[c / 3], s->after->p[v]);
+	mr_place at = mr_places_at(&s->place, v);
+	double far = mr_dist(mr_place_point(s->before, at), s->after->p[v]);
+
+	return j->on[v] || sqrt(walked.dist2) <= 1.001 * far ? walked.at : at;
+}
+
+static void
+place_corners(void *arg, size_t begin, size_t end)
+{
+	corner_job *j = arg;
+
+	for (size_t c = begin; c < end; c++) {
+		mr_place at = place_corner(j, c);
+		for (uint32_t k = 0; k < 3; k++)
+			j->parent[3 * c + k] = 3 * at.face + k;
+		memcpy(j->weight + 3 * c, &at.bary, sizeof at.bary);
+	}
+}
+
+/* The mesh with a vertex for each side of the seams there. */
+static mr_status
+cut_seams(mr_ctx *ctx, const mr_mesh *m, const uint8_t *seam, mr_mesh *cut, mr_topology *topo)
+{
+	size_t n = 3 * m->nf, nv = 0;
+	uint32_t *set = mr_sets_new(ctx, n), *number = MR_NEW(ctx, n, uint32_t);
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	mr_v3 *p = MR_NEW(ctx, n, mr_v3);
+
+	MR_TRY(mr_topology_build(ctx, m, topo));
+	for (uint32_t h = 0; h < n; h++) {
+		uint32_t g = topo->twin[h];
+		if (g == MR_NONE || (seam && seam[h]))
+			continue;
+		mr_sets_join(set, h, mr_he_next(g));
+		mr_sets_join(set, mr_he_next(h), g);
+	}
+	for (uint32_t h = 0; h < n; h++)
+		if (mr_sets_root(set, h) == h) {
+			number[h] = (uint32_t)nv;
+			p[nv++] = m->p[mr_he_from(m, h)];
+		}
+	for (uint32_t h = 0; h < n; h++)
+		t[h / 3].v[h % 3] = number[mr_sets_root(set, h)];
+	*cut = (mr_mesh){ m->name, p, t, nv, m->nf };
+	return mr_topology_build(ctx, cut, topo);
+}
+
+/* Where the corners of `after` are; those on a seam, on their side of it. */
+static mr_status
+find_corners(mr_ctx *ctx, const mr_successor *s, mr_rows_from *rows)
+{
+	size_t n = 3 * s->after->nf;
+	corner_job j = { .s = s,
+		.on = MR_NEW_ZERO(ctx, s->after->nv, bool),
+		.parent = MR_NEW(ctx, 3 * n, uint32_t),
+		.weight = MR_NEW(ctx, 3 * n, double) };
+
+	MR_TRY(cut_seams(ctx, s->before, s->seam, &j.cut, &j.topo));
+	for (uint32_t h = 0; s->seam_after && h < n; h++)
+		if (s->seam_after[h])
+			j.on[mr_he_from(s->after, h)] = j.on[mr_he_to(s->after, h)] = true;
+	mr_parallel(ctx, n, 1024, place_corners, &j);
+	*rows = (mr_rows_from){ n, 3, j.parent, j.weight };
+	return MR_OK;
+}
+
+/* ---- columns ---- */
+
+static mr_rows_from
+find_vertices(mr_ctx *ctx, const mr_successor *s)
+{
+	size_t n = s->after->nv;
+	uint32_t *parent = MR_NEW(ctx, 3 * n, uint32_t);
+
+	for (size_t v = 0; v < n; v++)
+		memcpy(parent + 3 * v, s->before->t[s->place.face[v]].v, 3 * sizeof *parent);
+	return (mr_rows_from){ n, 3, parent, (const double *)s->place.bary };
+}
+
+static bool
+goes_along(const mr_column *c, const char *layer)
+{
+	const mr_column_info *info = mr_column_of(layer, c->name);
+
+	if (strcmp(c->layer, layer) || !strcmp(c->name, "polygon"))
+		return false;
+	return info ? info->kind >= MR_MEAN && info->kind != MR_DIRECTION : c->shape.element != '-';
+}
+
+bool
+mr_layer_carries(const mr_frame *f, const char *layer)
+{
+	for (size_t i = 0; i < f->count; i++)
+		if (goes_along(&f->columns[i], layer))
+			return true;
+	return false;
+}
+
+mr_status
+mr_carry_columns(mr_ctx *ctx, mr_frame *f, const mr_successor *s, mr_carried **list, size_t *count)
+{
+	mr_carried *c = MR_NEW(ctx, f->count, mr_carried);
+	mr_rows_from vertices = { 0 }, corners = { 0 }, faces = { s->after->nf, 1, s->face, NULL };
+	size_t n = 0;
+
+	for (size_t i = 0; i < f->count; i++) {
+		char element = f->columns[i].shape.element;
+		if (!goes_along(&f->columns[i], s->before->name))
+			continue;
+		MR_TRY(mr_carried_begin(ctx, f, i, element == 'v' ? s->before->nv : s->before->nf,
+		    element == 'v' ? s->after->nv : s->after->nf, &c[n]));
+		if (element == 'v') {
+			vertices = vertices.n ? vertices : find_vertices(ctx, s);
+			mr_carried_make(ctx, &c[n], 1, 0, vertices);
+		} else if (is_of_corners(&f->columns[i])) {
+			if (!corners.n)
+				MR_TRY(find_corners(ctx, s, &corners));
+			mr_carried_make(ctx, &c[n], 3, 0, corners);
+		} else if (element == 'f') {
+			c[n].kind = MR_LABEL;
+			mr_carried_make(ctx, &c[n], 1, 0, faces);
+		}
+		n++;
+	}
+	*list = c;
+	*count = n;
+	return MR_OK;
+}
