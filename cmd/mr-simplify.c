@@ -36,10 +36,14 @@ read_lock(mr_ctx *ctx)
 		return MR_OK;
 	if (!strncmp(lock, "region:", 7)) {
 		opts.lock = MR_LOCK_REGION;
-		return cmd_parse_count(ctx, "--lock region", lock + 7, 0, MR_REGION_HANDLE + 65535, &opts.region);
+		return cmd_parse_count(
+		    ctx, "--lock region", lock + 7, 0, MR_REGION_HANDLE + 65535, &opts.region);
 	}
-	opts.lock = !strcmp(lock, "boundary") ? MR_LOCK_BOUNDARY : !strcmp(lock, "seams") ? MR_LOCK_SEAMS : MR_LOCK_NONE;
-	return opts.lock ? MR_OK : mr_fail(ctx, MR_EUSAGE, "--lock: %s is none of boundary, seams, region:N", lock);
+	opts.lock = !strcmp(lock, "boundary") ? MR_LOCK_BOUNDARY
+	            : !strcmp(lock, "seams")  ? MR_LOCK_SEAMS
+	                                      : MR_LOCK_NONE;
+	return opts.lock ? MR_OK
+	                 : mr_fail(ctx, MR_EUSAGE, "--lock: %s is none of boundary, seams, region:N", lock);
 }
 
 static mr_status

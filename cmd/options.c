@@ -34,8 +34,8 @@ parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double m
 	return MR_OK;
 }
 
-static mr_status
-parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value)
+mr_status
+cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value)
 {
 	unsigned long long n;
 	char *end;
@@ -108,8 +108,8 @@ parse_size(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 	if (!x || x - text >= (int)sizeof width)
 		return mr_fail(ctx, MR_EUSAGE, "%s: %s is not of the form WxH", what, text);
 	snprintf(width, sizeof width, "%.*s", (int)(x - text), text);
-	MR_TRY(parse_count(ctx, what, width, (size_t)o->min, (size_t)o->max, &size[0]));
-	return parse_count(ctx, what, x + 1, (size_t)o->min, (size_t)o->max, &size[1]);
+	MR_TRY(cmd_parse_count(ctx, what, width, (size_t)o->min, (size_t)o->max, &size[0]));
+	return cmd_parse_count(ctx, what, x + 1, (size_t)o->min, (size_t)o->max, &size[1]);
 }
 
 static mr_status
@@ -153,7 +153,7 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 	case CMD_REAL:
 		return parse_real(ctx, what, text, o->min, o->max, o->value);
 	case CMD_COUNT:
-		return parse_count(ctx, what, text, (size_t)o->min, (size_t)o->max, o->value);
+		return cmd_parse_count(ctx, what, text, (size_t)o->min, (size_t)o->max, o->value);
 	case CMD_CHOICE:
 		return parse_choice(ctx, o, what, text);
 	case CMD_TEXT:

@@ -59,6 +59,10 @@ mr_status cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tab
 /* Prints one table for --help, its defaults read from the values. */
 void cmd_print_options(FILE *out, const cmd_opt *table);
 
+/* Parses the whole of `text` as a count in [min, max]: MR_EUSAGE with a sentence that begins with `what`. */
+mr_status
+cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value);
+
 /* Whether a list with commas names nothing somewhere: "", "a,", "a,,b". */
 bool cmd_list_lacks(const char *list);
 

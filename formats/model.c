@@ -307,6 +307,7 @@ static mr_status
 import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame, mr_import_result *result)
 {
 	const char *name = mr_format_stem(ctx, path), *layer;
+	size_t joined = 0;
 	double unit;
 	mr_frame *f;
 	mr_model m;
@@ -325,7 +326,10 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	MR_TRY(mr_frame_new(ctx, name, &f));
 	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, layer, &m), "%s", path));
 	if (o->welds)
-		MR_TRY(mr_layer_weld(ctx, f, layer, o->weld * unit));
+		MR_TRY(mr_layer_weld(ctx, f, layer, o->weld * unit, &joined));
+	if (joined)
+		mr_found(
+		    ctx, &(mr_finding){ .kind = MR_REPAIRED, .what = "vertices joined", .count = joined });
 	if (o->repair)
 		MR_TRY(mr_prefix(ctx, mr_layer_repair(ctx, f, layer), "%s", path));
 	*frame = f;

@@ -274,6 +274,9 @@ render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *o, const char *path)
 	mr_image image;
 	mr_shot shot;
 
+	MR_TRY(mr_check_number(ctx, "width", (double)o->width, 1, 16384));
+	MR_TRY(mr_check_number(ctx, "height", (double)o->height, 1, 16384));
+	MR_TRY(mr_check_number(ctx, "columns", (double)o->columns, 0, 10000));
 	MR_TRY(mr_gallery_add_painted(ctx, ctx, &gallery, f, o));
 	MR_TRY(mr_shot_aim(ctx, &gallery, 0, 1, o, &shot));
 	MR_TRY(mr_shot_draw(ctx, &gallery, &shot, 0, o, &image));
@@ -287,10 +290,5 @@ mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path
 	MR_SCOPE(ctx);
 
 	MR_ENTER(ctx);
-	if (!opts)
-		opts = &defaults;
-	MR_TRY(mr_check_number(ctx, "width", (double)opts->width, 1, 16384));
-	MR_TRY(mr_check_number(ctx, "height", (double)opts->height, 1, 16384));
-	MR_TRY(mr_check_number(ctx, "columns", (double)opts->columns, 0, 10000));
-	return render(ctx, f, opts, path);
+	return opts ? render(ctx, f, opts, path) : render(ctx, f, &defaults, path);
 }

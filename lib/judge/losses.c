@@ -12,12 +12,14 @@ is_given(const mr_column *c)
 	return !info || info->kind == MR_MEAN || info->kind == MR_LABEL || !strcmp(c->name, "region");
 }
 
-/* mesh and base have one selection. */
+/* mesh and base have one selection; texture coordinates of vertices that become one are those of corners. */
 static bool
 is_there(const mr_frame *f, const mr_column *c)
 {
 	if (mr_layer_has(f, c->layer, c->name))
 		return true;
+	if (!strcmp(c->name, "texcoord"))
+		return mr_layer_has(f, c->layer, "corner_texcoord");
 	return !strcmp(c->name, "region") &&
 	       (mr_layer_has(f, "base", "region") || mr_layer_has(f, "mesh", "region"));
 }

@@ -88,7 +88,7 @@ rename_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *map, do
 }
 
 mr_status
-mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps)
+mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, size_t *joined)
 {
 	uint32_t *map, *of;
 	size_t n = 0, next = 0;
@@ -101,7 +101,7 @@ mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps)
 	for (size_t i = 0; i < m.nv; i++)
 		if (map[i] == next)
 			of[next++] = (uint32_t)i;
-	report(ctx, m.nv - n, "vertices joined");
+	*joined = m.nv - n;
 	MR_TRY(keep_differences(ctx, f, &m, map, of));
 	MR_TRY(mr_layer_gather(ctx, f, layer, 'v', of, n));
 	return m.nf ? rename_faces(ctx, f, &m, map, eps) : MR_OK;

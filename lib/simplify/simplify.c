@@ -268,7 +268,8 @@ add_quadrics(simplifier *s)
 	}
 }
 
-/* Takes the numbers that half-edges had in the input for those of their faces; curves are those that it marks. */
+/* Takes the numbers that half-edges had in the input for those of their faces; curves are those that it
+ * marks. */
 static void
 take_source(simplifier *s, const uint8_t *sharp)
 {
@@ -287,6 +288,7 @@ take_source(simplifier *s, const uint8_t *sharp)
 static mr_status
 copy_mesh(simplifier *s, const mr_mesh *m)
 {
+	const uint8_t *sharp = s->o->sharp ? *s->o->sharp : NULL;
 	mr_topology topo;
 	mr_dyn d = { .nv = m->nv,
 		.nf = m->nf,
@@ -308,13 +310,14 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 		d.at[v] = v;
 		d.kind[v] = d.out[v] == MR_NONE ? MR_DEAD : MR_SMOOTH;
 	}
-	d.curve = MR_NEW(s->ctx, 3 * m->nf, uint32_t);
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
+	d.curve = s->o->face || sharp ? MR_NEW(s->ctx, 3 * m->nf, uint32_t) : NULL;
+	for (uint32_t h = 0; d.curve && h < 3 * m->nf; h++)
 		d.curve[h] = h;
 	MR_TRY(mr_dyn_compact(s->ctx, &d));
 	mr_dyn_order(s->ctx, &d);
 	s->d = d;
-	take_source(s, s->o->sharp ? *s->o->sharp : NULL);
+	if (d.curve)
+		take_source(s, sharp);
 	return MR_OK;
 }
 

@@ -3,7 +3,8 @@
 
 #include "base/options.h"
 #include "edit/detail.h"
-#include "mesh/layers.h"
+#include "mesh/mend.h"
+#include "mesh/repair.h"
 #include "simplify/creases.h"
 #include "space/carry.h"
 #include "tool/sample.h"
@@ -97,20 +98,20 @@ weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opt
 	return MR_OK;
 }
 
-/* Puts the result in the surface's place, with what this knows; a base goes on knowing where it lies on the mesh.
- * s: all but the places; without faces nothing goes along. */
+/* Puts the result in the surface's place, with what this knows; a base goes on knowing where it lies on the
+ * mesh. s: all but the places; without faces nothing goes along. */
 static mr_status
 replace(mr_ctx *ctx, mr_frame *f, const uint32_t *onto, mr_successor s)
 {
 	const mr_mesh *m = s.before, *out = s.after;
 	mr_carried *carried;
 	mr_places source;
-	bool mapped = false, is_base = !strcmp(m->name, "base"), carries = s.face && mr_layer_carries(f, m->name);
+	bool mapped = false, is_base = !strcmp(m->name, "base");
 	size_t n = 0;
 
-	if (carries || is_base)
+	if (s.face || is_base)
 		MR_TRY(mr_simplify_map(ctx, m, out, onto, &s.place));
-	if (carries)
+	if (s.face)
 		MR_TRY(mr_carry_columns(ctx, f, &s, &carried, &n));
 	if (is_base)
 		MR_TRY(mr_source_map_follow(ctx, f, m, &s.place, out->nv, &source, &mapped));
@@ -122,7 +123,8 @@ replace(mr_ctx *ctx, mr_frame *f, const uint32_t *onto, mr_successor s)
 
 /* The vertices that stay: those of boundaries, of seams or of a region. */
 static mr_status
-lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam, mr_simplify_opts *o)
+lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam,
+    mr_simplify_opts *o)
 {
 	bool *fixed = MR_NEW_ZERO(ctx, m->nv, bool);
 	const uint32_t *region = NULL;
@@ -145,7 +147,7 @@ hold(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_simplify_opts *o, uint8_t **
 	mr_topology topo;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
-	if (!o->to)
+	if (o->face)
 		MR_TRY(mr_layer_seams(ctx, f, m, &topo, seam));
 	return o->lock ? lock(ctx, f, m, &topo, *seam, o) : MR_OK;
 }
@@ -187,6 +189,31 @@ put_marks(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const uint8_t *mark, siz
 	return mark ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
 }
 
+/* Joins vertices of the mesh at the same place, as files have them along seams, where that leaves a manifold:
+ * edges there would part otherwise. */
+static mr_status
+join_seams(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
+{
+	uint32_t *map = MR_NEW(ctx, m->nv, uint32_t);
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	const double eps = 1e-8 * mr_mesh_diagonal(m); /* that sines of pi and the like are off */
+	mr_topology topo;
+	size_t n = 0, rim = 0;
+
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	for (size_t h = 0; h < 3 * m->nf; h++)
+		rim += topo.twin[h] == MR_NONE;
+	if (!rim)
+		return MR_OK;
+	mr_weld(ctx, m->p, m->nv, eps, map, &n);
+	for (size_t h = 0; h < 3 * m->nf; h++)
+		t[h / 3].v[h % 3] = map[m->t[h / 3].v[h % 3]];
+	if (n == m->nv || mr_topology_build(ctx, &(mr_mesh){ m->name, m->p, t, n, m->nf }, &topo) != MR_OK)
+		return MR_OK;
+	MR_TRY(mr_layer_weld(ctx, f, m->name, eps, &n));
+	return mr_layer_mesh(ctx, f, m->name, m);
+}
+
 static mr_status
 simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 {
@@ -203,6 +230,8 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	MR_TRY(mr_check_number(ctx, "boundary", o.boundary, 0, 1e6));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o.layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	if (!strcmp(layer, "mesh"))
+		MR_TRY(join_seams(ctx, f, &m));
 	if (o.to && !strcmp(o.to, layer))
 		return mr_fail(ctx, MR_EUSAGE, "--to: %s is the layer that is simplified", layer);
 	MR_TRY(read_points(ctx, f, o.to ? o.to : layer, &points));
@@ -214,10 +243,10 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
 		limit_by_frame(ctx, &surface, &points, &o);
 	onto = MR_NEW(ctx, surface.nv, uint32_t);
-	if (!marks)
-		MR_TRY(hold(ctx, f, &surface, &o, &seam));
-	if (!marks)
+	if (!o.to && !marks && mr_layer_carries(f, layer))
 		o.face = &face;
+	if (o.face || o.lock)
+		MR_TRY(hold(ctx, f, &surface, &o, &seam));
 	if (seam)
 		marks = seam;
 	if (marks || (of_mesh(&o) && !o.smooth))
@@ -226,7 +255,10 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	r->creases = look || o.creases ? 0 : MR_UNKNOWN;
 	if (points.n > 0)
 		MR_TRY(mr_sample_report_move(ctx, f, "points"));
-	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, onto, (mr_successor){ &m, &out, seam, seam ? marks : NULL, o.face ? face : NULL, { NULL, NULL } }));
+	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out)
+		    : replace(ctx, f, onto,
+			  (mr_successor){
+			      &m, &out, seam, seam ? marks : NULL, o.face ? face : NULL, { NULL, NULL } }));
 	if (o.sharp && !seam)
 		MR_TRY(put_marks(ctx, f, &out, marks, &r->creases));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);

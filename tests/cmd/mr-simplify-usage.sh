@@ -1,5 +1,5 @@
 # Wrong command lines: exit 2, a sentence, nothing on stdout; what it cannot work on is named.
-for args in '-n -1' '-n x' '-r 1.1' '-r nan' '-e -1' '-e 1%%' '-e 1 --boundary -1' '-n 10 -r 0.5' '--nothing' '-n'; do
+for args in '-n -1' '-n x' '-r 1.1' '-r nan' '-e -1' '-e 1%%' '-e 1 --boundary -1' '-n 10 -r 0.5' '--nothing' '-n' '--lock rim' '--lock region:x'; do
 	mr-make sphere -n 100 | mr-simplify $args >out 2>err
 	echo "$args: $? $(wc -c <out) $(head -n 1 err)"
 done
