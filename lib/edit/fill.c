@@ -302,21 +302,18 @@ refine(filler *w)
 	return MR_OK;
 }
 
-/* Lets the new vertices go where D^k p = 0, all others as they are. */
+/* Lets the new vertices of loops `first` to `end` go where D^k p = 0, all others as they are. */
 static mr_status
-fair(filler *w, size_t order)
+solve(filler *w, size_t order, size_t first, size_t end)
 {
 	const mr_mesh *a = &w->around.mesh;
 	mr_deform_opts o = MR_DEFORM_DEFAULTS;
-	mr_mark mark = mr_mark_take(w->ctx);
-	size_t nv = a->nv + w->d.nv - w->rim, nf = a->nf + w->d.nf;
+	size_t nv = a->nv + w->d.nv - w->rim, nf = a->nf + w->d.nf, free = 0;
 	mr_v3 *p = MR_NEW(w->ctx, nv, mr_v3), *to = MR_NEW(w->ctx, nv, mr_v3);
 	mr_tri *t = MR_NEW(w->ctx, nf, mr_tri);
 	uint32_t *region = MR_NEW_ZERO(w->ctx, nv, uint32_t), *flat = &t[a->nf].v[0];
 	mr_deform *deform;
 
-	if (w->d.nv == w->rim)
-		return MR_OK;
 	o.order = order;
 	o.apart = true;
 	memcpy(p, a->p, a->nv * sizeof *p);
@@ -326,13 +323,34 @@ fair(filler *w, size_t order)
 		uint32_t v = w->d.v[i];
 		flat[i] = v < w->rim ? w->at[v] : (uint32_t)(v - w->rim + a->nv);
 	}
-	for (size_t v = a->nv; v < nv; v++)
-		region[v] = MR_REGION_FREE;
+	for (size_t v = w->rim; v < w->d.nv; v++) {
+		region[v - w->rim + a->nv] = w->loop[v] >= first && w->loop[v] < end ? MR_REGION_FREE : 0;
+		free += region[v - w->rim + a->nv];
+	}
+	if (free == 0)
+		return MR_OK;
 	MR_TRY(mr_deform_new(w->ctx, &(mr_mesh){ w->m->name, p, t, nv, nf }, NULL, region, &o, &deform));
 	MR_TRY(mr_deform_solve(w->ctx, deform, p, NULL, to));
 	memcpy(w->d.p + w->rim, to + a->nv, (w->d.nv - w->rim) * sizeof *p);
-	mr_mark_release(w->ctx, mark);
 	return MR_OK;
+}
+
+/* Where the surface around a loop is so poor that there is no solution in doubles that loop's order is lower.
+ */
+static mr_status
+fair(filler *w, size_t order, size_t first, size_t end)
+{
+	mr_mark mark = mr_mark_take(w->ctx);
+	mr_status status = solve(w, order, first, end);
+	size_t middle = first + (end - first) / 2;
+
+	mr_mark_release(w->ctx, mark);
+	if (status != MR_ENUMERIC)
+		return status;
+	if (middle == first)
+		return order > 1 ? fair(w, order - 1, first, end) : MR_OK;
+	MR_TRY(fair(w, order, first, middle));
+	return fair(w, order, middle, end);
 }
 
 /* ---- what crosses ---- */
@@ -522,10 +540,10 @@ mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out, m
 		look_around(&w);
 		MR_TRY(span_loops(&w));
 		MR_TRY(refine(&w));
-		MR_TRY(fair(&w, 1));
+		MR_TRY(fair(&w, 1, 0, w.n));
 		for (int i = 0; i < 2 && o->order > 1; i++) {
 			MR_TRY(refine(&w));
-			MR_TRY(fair(&w, o->order));
+			MR_TRY(fair(&w, o->order, 0, w.n));
 		}
 		MR_TRY(settle(&w, bad, out));
 	}
