@@ -56,6 +56,14 @@ mr-import cube.obj | mr-fill --loops 1 | mr-export -f obj - | grep -v '^#'
 mr-import cube.obj | mr-subdivide --longest 0.2 | mr-fill --loops 1 | mr-export -q -f ply-ascii - |
 	sed -n '/end_header/,$p' | awk 'NF > 5 && $3 > 1 { print $4, $5, $6 }' | sort | uniq -c | awk '{ print $2, $3, $4 }'
 
+echo 'texture coordinates of corners go on where no seam crosses the rim; normals are there'
+mr-make sphere -n 2000 --texcoords | mr-normals -o textured.mrs
+for x in -1 1; do
+	mr-crop --drop sphere:$x,0,0,0.3 textured.mrs | mr-fill -o out.mrs && mr-info --check out.mrs >info
+	mr-export -q -f obj - <out.mrs | awk -v x=$x '/^f/ { n++; with += /\/[0-9]+\// } END { print x ": " n - with " without" }'
+done
+mr-export -q -f obj - <out.mrs | awk '/^vn/ && ($2 ^ 2 + $3 ^ 2 + $4 ^ 2 - 1) ^ 2 > 1e-12 { bad++ } END { print bad + 0 " bad normals" }'
+
 echo 'a filling that would cross the surface'
 cat >crossing.off <<'END'
 OFF
