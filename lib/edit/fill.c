@@ -116,14 +116,6 @@ look_around(filler *w)
 		w->at[i] = number[mr_he_from(m, w->he[i])];
 		w->edge[i] = sum[w->at[i]] / count[w->at[i]];
 	}
-	for (size_t i = 0, first = 0; i < w->rim; i++) { /* no edge between the ends of a long one is short */
-		bool last = i + 1 == w->rim || w->loop[i + 1] != w->loop[i];
-		size_t j = last ? first : i + 1;
-		double least = 0.75 * mr_dist(m->p[mr_he_from(m, w->he[i])], m->p[mr_he_to(m, w->he[i])]);
-		w->edge[i] = fmax(w->edge[i], least);
-		w->edge[j] = fmax(w->edge[j], least);
-		first = last ? i + 1 : first;
-	}
 }
 
 /* Whether two vertices of the patches have an edge of the surface in common. */
@@ -180,6 +172,13 @@ span_loops(filler *w)
 	MR_TRY(mr_topology_build(w->ctx, &m, &topo));
 	MR_TRY(mr_dyn_build(w->ctx, &m, &topo, 180, &w->d));
 	memset(w->d.kind, MR_CORNER, w->rim); /* the rims stay */
+	for (uint32_t h = 0; h < 3 * nf; h++)
+		if (w->d.twin[h] == MR_NONE) { /* no edges between the ends of a long one can be short */
+			uint32_t a = w->d.v[h], b = mr_dyn_to(&w->d, h);
+			double least = 0.75 * mr_dist(p[a], p[b]);
+			w->edge[a] = fmax(w->edge[a], least);
+			w->edge[b] = fmax(w->edge[b], least);
+		}
 	return MR_OK;
 }
 
@@ -302,36 +301,48 @@ refine(filler *w)
 	return MR_OK;
 }
 
+/* A surface and patches of it, whose first `rim` vertices are those `at` it has. */
+static mr_mesh
+join(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *patches, size_t rim, const uint32_t *at)
+{
+	size_t nv = m->nv + patches->nv - rim, nf = m->nf + patches->nf;
+	mr_v3 *p = MR_NEW(ctx, nv, mr_v3);
+	mr_tri *t = MR_NEW(ctx, nf, mr_tri);
+
+	memcpy(p, m->p, m->nv * sizeof *p);
+	memcpy(p + m->nv, patches->p + rim, (patches->nv - rim) * sizeof *p);
+	memcpy(t, m->t, m->nf * sizeof *t);
+	for (size_t i = 0; i < 3 * patches->nf; i++) {
+		uint32_t v = patches->t[i / 3].v[i % 3];
+		t[m->nf + i / 3].v[i % 3] = v < rim ? at[v] : (uint32_t)(v - rim + m->nv);
+	}
+	return (mr_mesh){ m->name, p, t, nv, nf };
+}
+
 /* Lets the new vertices of loops `first` to `end` go where D^k p = 0, all others as they are. */
 static mr_status
 solve(filler *w, size_t order, size_t first, size_t end)
 {
-	const mr_mesh *a = &w->around.mesh;
+	mr_mesh patches = mr_dyn_view(&w->d, w->m->name),
+		m = join(w->ctx, &w->around.mesh, &patches, w->rim, w->at);
+	size_t before = w->around.mesh.nv - w->rim, free = 0;
+	mr_v3 *to = MR_NEW(w->ctx, m.nv, mr_v3);
+	uint32_t *region = MR_NEW_ZERO(w->ctx, m.nv, uint32_t);
 	mr_deform_opts o = MR_DEFORM_DEFAULTS;
-	size_t nv = a->nv + w->d.nv - w->rim, nf = a->nf + w->d.nf, free = 0;
-	mr_v3 *p = MR_NEW(w->ctx, nv, mr_v3), *to = MR_NEW(w->ctx, nv, mr_v3);
-	mr_tri *t = MR_NEW(w->ctx, nf, mr_tri);
-	uint32_t *region = MR_NEW_ZERO(w->ctx, nv, uint32_t), *flat = &t[a->nf].v[0];
 	mr_deform *deform;
 
 	o.order = order;
 	o.apart = true;
-	memcpy(p, a->p, a->nv * sizeof *p);
-	memcpy(p + a->nv, w->d.p + w->rim, (w->d.nv - w->rim) * sizeof *p);
-	memcpy(t, a->t, a->nf * sizeof *t);
-	for (size_t i = 0; i < 3 * w->d.nf; i++) {
-		uint32_t v = w->d.v[i];
-		flat[i] = v < w->rim ? w->at[v] : (uint32_t)(v - w->rim + a->nv);
-	}
-	for (size_t v = w->rim; v < w->d.nv; v++) {
-		region[v - w->rim + a->nv] = w->loop[v] >= first && w->loop[v] < end ? MR_REGION_FREE : 0;
-		free += region[v - w->rim + a->nv];
-	}
+	for (size_t v = w->rim; v < w->d.nv; v++)
+		if (w->loop[v] >= first && w->loop[v] < end) {
+			region[before + v] = MR_REGION_FREE;
+			free++;
+		}
 	if (free == 0)
 		return MR_OK;
-	MR_TRY(mr_deform_new(w->ctx, &(mr_mesh){ w->m->name, p, t, nv, nf }, NULL, region, &o, &deform));
-	MR_TRY(mr_deform_solve(w->ctx, deform, p, NULL, to));
-	memcpy(w->d.p + w->rim, to + a->nv, (w->d.nv - w->rim) * sizeof *p);
+	MR_TRY(mr_deform_new(w->ctx, &m, NULL, region, &o, &deform));
+	MR_TRY(mr_deform_solve(w->ctx, deform, m.p, NULL, to));
+	memcpy(w->d.p + w->rim, to + before + w->rim, (w->d.nv - w->rim) * sizeof *to);
 	return MR_OK;
 }
 
@@ -355,47 +366,38 @@ fair(filler *w, size_t order, size_t first, size_t end)
 
 /* ---- what crosses ---- */
 
-/* The patches whose loops are not bad, loop by loop, and the surface with them. */
+/* The patches whose loops are not bad, and the surface with them. */
 static void
 gather(filler *w, const bool *bad, mr_patches *out)
 {
-	size_t nv = w->m->nv, nf = w->m->nf, kept = 0, *end = MR_NEW_ZERO(w->ctx, w->n + 1, size_t);
-	mr_v3 *p = MR_NEW(w->ctx, w->d.nv, mr_v3), *all_p = MR_NEW(w->ctx, nv + w->d.nv, mr_v3);
-	mr_tri *t = MR_NEW(w->ctx, w->d.nf, mr_tri), *all_t = MR_NEW(w->ctx, nf + w->d.nf, mr_tri);
-	uint32_t *he = MR_NEW(w->ctx, w->rim, uint32_t), *loop = MR_NEW(w->ctx, w->d.nv, uint32_t);
-	uint32_t *number = MR_NEW(w->ctx, w->d.nv, uint32_t);
+	mr_v3 *p = MR_NEW(w->ctx, w->d.nv, mr_v3);
+	mr_tri *t = MR_NEW(w->ctx, w->d.nf, mr_tri);
+	uint32_t *he = MR_NEW(w->ctx, w->rim, uint32_t), *at = MR_NEW(w->ctx, w->rim, uint32_t);
+	uint32_t *loop = MR_NEW(w->ctx, w->d.nv, uint32_t), *number = MR_NEW(w->ctx, w->d.nv, uint32_t);
+	size_t nv = 0, nf = 0;
 
 	*out = (mr_patches){ .he = he, .loop = loop };
 	for (size_t v = 0; v < w->d.nv; v++) {
 		if (bad[w->loop[v]])
 			continue;
-		if (v < w->rim)
-			he[out->rim++] = w->he[v];
-		p[kept] = w->d.p[v];
-		loop[kept] = w->loop[v];
-		number[v] = (uint32_t)kept++;
-	}
-	for (size_t f = 0; f < w->d.nf; f++)
-		end[w->loop[w->d.v[3 * f]] + 1] += !bad[w->loop[w->d.v[3 * f]]];
-	for (size_t l = 0; l < w->n; l++)
-		end[l + 1] += end[l];
-	out->m = (mr_mesh){ w->m->name, p, t, kept, end[w->n] };
-	out->all = (mr_mesh){ w->m->name, all_p, all_t, nv + kept - out->rim, nf + end[w->n] };
-	memcpy(all_p, w->m->p, nv * sizeof *p);
-	memcpy(all_p + nv, p + out->rim, (kept - out->rim) * sizeof *p);
-	memcpy(all_t, w->m->t, nf * sizeof *t);
-	for (size_t f = 0; f < w->d.nf; f++) {
-		size_t l = w->loop[w->d.v[3 * f]], at = end[l];
-		if (bad[l])
-			continue;
-		end[l]++;
-		for (int k = 0; k < 3; k++) {
-			uint32_t v = number[w->d.v[3 * f + (size_t)k]];
-			t[at].v[k] = v;
-			all_t[nf + at].v[k] = v < out->rim ? mr_he_from(w->m, he[v])
-			                                   : (uint32_t)(v - out->rim + nv);
+		if (v < w->rim) {
+			he[nv] = w->he[v];
+			at[nv] = mr_he_from(w->m, he[nv]);
+			out->rim++;
 		}
+		p[nv] = w->d.p[v];
+		loop[nv] = w->loop[v];
+		number[v] = (uint32_t)nv++;
 	}
+	for (size_t f = 0; f < w->d.nf; f++) {
+		if (bad[w->loop[w->d.v[3 * f]]])
+			continue;
+		for (size_t k = 0; k < 3; k++)
+			t[nf].v[k] = number[w->d.v[3 * f + k]];
+		nf++;
+	}
+	out->m = (mr_mesh){ w->m->name, p, t, nv, nf };
+	out->all = join(w->ctx, w->m, &out->m, out->rim, at);
 }
 
 typedef struct crossing {
@@ -403,8 +405,6 @@ typedef struct crossing {
 	const mr_patches *patches;
 	size_t before; /* faces of the surface */
 	uint32_t face; /* of a patch */
-	bool *bad;     /* of each loop */
-	bool crosses;  /* the face */
 } crossing;
 
 static uint32_t
@@ -413,23 +413,19 @@ loop_of(const crossing *c, size_t f)
 	return c->patches->loop[c->patches->m.t[f - c->before].v[0]];
 }
 
-/* Of two patches that of the shorter loop stands, if it is good. */
+/* Whether a face is no fault of this one's: of two patches that of the shorter loop stands. */
 static bool
-look_at_pair(void *arg, uint32_t g)
+is_good(void *arg, uint32_t g)
 {
-	crossing *c = arg;
-	uint32_t loop = loop_of(c, c->face);
+	const crossing *c = arg;
 	mr_v3 p[3], q[3];
 
-	if (g == c->face)
-		return true;
-	if (g >= c->before && (loop_of(c, g) > loop || (loop_of(c, g) < loop && c->bad[loop_of(c, g)])))
+	if (g == c->face || (g >= c->before && loop_of(c, g) > loop_of(c, c->face)))
 		return true;
 	mr_corners(c->all, c->face, p);
 	mr_corners(c->all, g, q);
-	c->crosses = !mr_triangle_degenerate(p[0], p[1], p[2]) && !mr_triangle_degenerate(q[0], q[1], q[2]) &&
-	             mr_triangles_intersect(p, q);
-	return !c->crosses;
+	return mr_triangle_degenerate(p[0], p[1], p[2]) || mr_triangle_degenerate(q[0], q[1], q[2]) ||
+	       !mr_triangles_intersect(p, q);
 }
 
 /* Finds the loops whose patches cross something: bad, one for each loop, and the vertices of their faces that
@@ -437,7 +433,7 @@ look_at_pair(void *arg, uint32_t g)
 static bool
 find_crossings(const filler *w, const mr_patches *patches, bool *bad, bool *at)
 {
-	crossing c = { .all = &patches->all, .patches = patches, .before = w->m->nf, .bad = bad };
+	crossing c = { &patches->all, patches, w->m->nf, 0 };
 	mr_bvh *bvh;
 	bool any = false;
 
@@ -448,7 +444,7 @@ find_crossings(const filler *w, const mr_patches *patches, bool *bad, bool *at)
 		mr_v3 p[3];
 		c.face = (uint32_t)f;
 		mr_corners(c.all, f, p);
-		if (mr_bvh_overlap(bvh, mr_box_of(p, 3), look_at_pair, &c))
+		if (mr_bvh_overlap(bvh, mr_box_of(p, 3), is_good, &c))
 			continue;
 		any = bad[loop_of(&c, f)] = true;
 		for (int k = 0; k < 3; k++)

@@ -14,7 +14,7 @@ typedef struct mr_patches {
 	mr_mesh m, all;
 	size_t rim;
 	const uint32_t *he;
-	const uint32_t *loop; /* of each vertex: which loop it fills */
+	const uint32_t *loop; /* of each vertex: which loop it fills, 0 the shortest */
 } mr_patches;
 
 /*
