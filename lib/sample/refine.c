@@ -27,6 +27,7 @@ typedef struct fit {
 	bool local;      /* only these */
 	mr_mesh surface; /* the displaced one */
 	mr_v3 *p;        /* its positions */
+	mr_v3 *cross;    /* of its faces: twice the area along the normal */
 	double *height;
 	mr_wish *wish;   /* of each point */
 	uint32_t *start; /* of each face's points in `order`: nf + 1 */
@@ -180,14 +181,26 @@ is_bad(const fit *x, uint32_t f)
 {
 	static const double turned = 0.1;
 	const uint32_t *twin = x->d->level[x->d->n].topo.twin;
-	mr_v3 n = mr_face_cross(&x->surface, f);
+	mr_v3 n = x->cross[f];
 
 	if (x->crosses[f] || beyond(n, mr_face_cross(&x->d->m, f), turned))
 		return true;
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
-		if (twin[h] != MR_NONE && mr_folds(n, mr_face_cross(&x->surface, twin[h] / 3), MR_FOLD))
+		if (twin[h] != MR_NONE && mr_folds(n, x->cross[twin[h] / 3], MR_FOLD))
 			return true;
 	return false;
+}
+
+static void
+turn_faces(void *arg, size_t begin, size_t end)
+{
+	const fit *x = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = x->surface.t[f].v;
+		if (!x->local || x->near[v[0]] || x->near[v[1]] || x->near[v[2]])
+			x->cross[f] = mr_face_cross(&x->surface, f);
+	}
 }
 
 static void
@@ -205,6 +218,7 @@ find_folds(mr_ctx *ctx, fit *x)
 {
 	size_t count = 0;
 
+	mr_parallel(ctx, x->surface.nf, GRAIN, turn_faces, x);
 	mr_parallel(ctx, x->surface.nf, GRAIN, look, x);
 	for (size_t f = 0; f < x->surface.nf; f++)
 		count += x->bad[f];
@@ -358,6 +372,7 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 	x->order = MR_NEW(ctx, c->n, uint32_t);
 	x->target = MR_NEW(ctx, d->m.nv, double);
 	x->pull = MR_NEW(ctx, d->m.nv, float);
+	x->cross = MR_NEW(ctx, d->m.nf, mr_v3);
 	x->bad = MR_NEW(ctx, d->m.nf, bool);
 	x->crosses = MR_NEW_ZERO(ctx, d->m.nf, bool);
 	x->tree = mr_loop_tree_new(ctx, d->level, d->n);
