@@ -139,7 +139,7 @@ mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const m
 	mr_sampling_places(ctx, point, s, &p, &of, &c.n);
 	c.p = p;
 	mr_sample_place(ctx, d, &c, NULL);
-	MR_TRY(mr_near_build(ctx, p, c.n, &c.near));
+	MR_TRY(mr_near_build_distinct(ctx, p, c.n, &c.near));
 	j.c = &c;
 	j.of = of;
 	j.k = c.n < LOOKED_AT ? c.n : LOOKED_AT;

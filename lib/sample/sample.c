@@ -257,7 +257,7 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 	mr_sampling_sort(ctx, point, &sampling, sorted, &sampling);
 	c.spacing = sampling.spacing;
 	c.usual = sampling.usual;
-	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
+	MR_TRY((sampling.places == n ? mr_near_build_distinct : mr_near_build)(ctx, sorted, n, &c.near));
 	mr_unmeasured(&r, sizeof r);
 	MR_TRY(sample_cloud(ctx, d, &sampling, &c, opts, height, &r));
 	mr_mark_release(ctx, mark);
