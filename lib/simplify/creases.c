@@ -28,7 +28,7 @@ static const double OWN = 0.1;
 static const double FARTHEST = 2;
 
 /* Degrees between the planes on both sides. */
-static const double ANGLE = 40;
+static const double ANGLE = 50;
 
 /* Normals within that many degrees are of one side. */
 static const double ALIKE = 25;
@@ -41,7 +41,7 @@ static const double ALONG = 1.5, GAP = 0.5;
 
 /* The share of its angle that a curve jumps by, at least, as if EVEN more edges that cross it did not jump.
  */
-static const double JUMP = 0.7, EVEN = 2;
+static const double JUMP = 0.85, EVEN = 2;
 
 /* Planes met from a place: A = sum n n^T, b = sum n (n . to the point). */
 typedef struct meeting {
