@@ -237,10 +237,8 @@ count_folds(mr_ctx *ctx, const crowd *c, uint32_t *harm, size_t *folds)
 
 /* Intersections */
 
-/* Whether faces f and g stand to each other as they did: where they touch, rounding decides whether they
- * intersect. */
-static bool
-faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g)
+bool
+mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g)
 {
 	const double little = 1e-3; /* of their extent */
 	mr_v3 p[6], q[6];
@@ -301,7 +299,7 @@ count_pair(void *arg, uint32_t f, uint32_t g)
 	bool near = s->part[s->now->t[f].v[0]] == s->part[s->now->t[g].v[0]];
 	uint32_t *harm = near ? s->near_harm : s->far_harm;
 
-	if (faces_stand(s->then, s->now, f, g) || (!near && !goes_deep(s, f, g)))
+	if (mr_faces_stand(s->then, s->now, f, g) || (!near && !goes_deep(s, f, g)))
 		return;
 	__atomic_fetch_add(near ? &s->near : &s->far, 1, __ATOMIC_RELAXED);
 	if (harm) {

@@ -61,6 +61,10 @@ typedef struct mr_harm {
  */
 void mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm);
 
+/* Whether faces f and g stand to each other as they did: where they touch, rounding decides whether they
+ * intersect. */
+bool mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g);
+
 /* Folds and intersections that came. */
 void mr_judge_harm(mr_ctx *ctx, const mr_motion *m);
 
