@@ -313,7 +313,6 @@ enum { W, WX, WXX, WH, WXH, WY, WXY, WHY, SUMS };
 /* Where an edge of the surface crosses a curve. */
 typedef struct crossing {
 	uint32_t h;
-	bool off;
 	double sum[SUMS];
 } crossing;
 
@@ -390,9 +389,10 @@ drop_curves(mr_ctx *ctx, const finder *f, crossing *c, size_t n)
 	}
 	for (size_t i = 0; i < n; i++) {
 		uint32_t curve = mr_sets_root(set, (uint32_t)i), twin = f->topo.twin[c[i].h];
-		if (c[i].off || jump_of(sum[curve]) * edges[curve] >= JUMP * (edges[curve] + EVEN))
+		if (f->middle[c[i].h] == MR_NONE ||
+		    jump_of(sum[curve]) * edges[curve] >= JUMP * (edges[curve] + EVEN))
 			continue;
-		any = c[i].off = true;
+		any = true;
 		f->middle[c[i].h] = MR_NONE;
 		if (twin != MR_NONE)
 			f->middle[twin] = MR_NONE;
