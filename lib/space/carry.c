@@ -32,19 +32,23 @@ same(const double *a, const double *b, size_t n)
 	return true;
 }
 
+/* Whether the values of the corners at the start of h are others across its edge. */
+static bool
+jumps(const mr_topology *topo, const mr_column *c, uint32_t h)
+{
+	size_t wide = c->shape.components / 3;
+	const double *x = c->data;
+	uint32_t g = topo->twin[h];
+
+	return g != MR_NONE && !same(x + wide * h, x + wide * mr_he_next(g), wide);
+}
+
 /* At both ends: at the pole of a sphere they jump from face to face. */
 static void
 mark_jumps(const mr_mesh *m, const mr_topology *topo, const mr_column *c, uint8_t *seam)
 {
-	size_t wide = c->shape.components / 3;
-	const double *x = c->data;
-
-	for (uint32_t h = 0; h < 3 * m->nf; h++) {
-		uint32_t g = topo->twin[h];
-		if (g != MR_NONE && !same(x + wide * h, x + wide * mr_he_next(g), wide) &&
-		    !same(x + wide * mr_he_next(h), x + wide * g, wide))
-			seam[h] = 1;
-	}
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		seam[h] |= jumps(topo, c, h) && jumps(topo, c, topo->twin[h]);
 }
 
 static void
@@ -84,35 +88,17 @@ typedef struct corner_job {
 	const mr_successor *s;
 	mr_mesh cut; /* before, its vertices apart along the seams */
 	mr_topology topo;
-	bool *on;         /* of each vertex of after: a seam */
-	uint32_t *parent; /* three corners of before for each of after, and their weights */
-	double *weight;
+	mr_closest *at; /* of each corner of after, on its own face's side */
 } corner_job;
-
-/* From its own face's side; but a walk may end before the nearest place, which is one where no seam is. */
-static mr_place
-place_corner(const corner_job *j, size_t c)
-{
-	const mr_successor *s = j->s;
-	uint32_t v = s->after->t[c / 3].v[c % 3];
-	mr_closest walked = mr_project_walk(&j->cut, &j->topo, s->face[c / 3], s->after->p[v]);
-	mr_place at = mr_places_at(&s->place, v);
-	double far = mr_dist(mr_place_point(s->before, at), s->after->p[v]);
-
-	return j->on[v] || sqrt(walked.dist2) <= 1.001 * far ? walked.at : at;
-}
 
 static void
 place_corners(void *arg, size_t begin, size_t end)
 {
 	corner_job *j = arg;
+	const mr_mesh *m = j->s->after;
 
-	for (size_t c = begin; c < end; c++) {
-		mr_place at = place_corner(j, c);
-		for (uint32_t k = 0; k < 3; k++)
-			j->parent[3 * c + k] = 3 * at.face + k;
-		memcpy(j->weight + 3 * c, &at.bary, sizeof at.bary);
-	}
+	for (size_t c = begin; c < end; c++)
+		j->at[c] = mr_project_walk(&j->cut, &j->topo, j->s->face[c / 3], m->p[m->t[c / 3].v[c % 3]]);
 }
 
 /* The mesh with a vertex for each side of the seams there. */
@@ -143,22 +129,48 @@ cut_seams(mr_ctx *ctx, const mr_mesh *m, const uint8_t *seam, mr_mesh *cut, mr_t
 	return mr_topology_build(ctx, cut, topo);
 }
 
-/* Where the corners of `after` are; those on a seam, on their side of it. */
+/* The place of corner c: its own, which is on its side; but a walk may end before the nearest place, and then
+ * that of another corner of the side, or of the vertex where no seam is. */
+static mr_place
+choose(const corner_job *j, uint32_t c, uint32_t best, bool on_seam)
+{
+	uint32_t v = mr_he_from(j->s->after, c);
+	mr_place at = mr_places_at(&j->s->place, v);
+	double far = mr_dist(mr_place_point(j->s->before, at), j->s->after->p[v]), little = 1.001;
+
+	if (on_seam || sqrt(j->at[best].dist2) <= little * far)
+		at = j->at[best].at;
+	return sqrt(j->at[c].dist2) <= little * (on_seam ? sqrt(j->at[best].dist2) : far) ? j->at[c].at : at;
+}
+
+/* Where the corners of `after` are. */
 static mr_status
 find_corners(mr_ctx *ctx, const mr_successor *s, mr_rows_from *rows)
 {
 	size_t n = 3 * s->after->nf;
-	corner_job j = { .s = s,
-		.on = MR_NEW_ZERO(ctx, s->after->nv, bool),
-		.parent = MR_NEW(ctx, 3 * n, uint32_t),
-		.weight = MR_NEW(ctx, 3 * n, double) };
+	uint32_t *parent = MR_NEW(ctx, 3 * n, uint32_t), *best = MR_NEW(ctx, n, uint32_t);
+	uint32_t *sides = MR_NEW_ZERO(ctx, s->after->nv, uint32_t);
+	double *weight = MR_NEW(ctx, 3 * n, double);
+	corner_job j = { .s = s, .at = mr_alloc(ctx, n, sizeof *j.at) };
+	mr_topology topo;
+	mr_mesh cut;
 
 	MR_TRY(cut_seams(ctx, s->before, s->seam, &j.cut, &j.topo));
-	for (uint32_t h = 0; s->seam_after && h < n; h++)
-		if (s->seam_after[h])
-			j.on[mr_he_from(s->after, h)] = j.on[mr_he_to(s->after, h)] = true;
+	MR_TRY(cut_seams(ctx, s->after, s->seam_after, &cut, &topo));
 	mr_parallel(ctx, n, 1024, place_corners, &j);
-	*rows = (mr_rows_from){ n, 3, j.parent, j.weight };
+	memset(best, 0xff, n * sizeof *best);
+	for (uint32_t c = 0; c < n; c++) {
+		uint32_t *b = &best[cut.t[c / 3].v[c % 3]];
+		sides[mr_he_from(s->after, c)] += *b == MR_NONE;
+		*b = *b == MR_NONE || j.at[c].dist2 < j.at[*b].dist2 ? c : *b;
+	}
+	for (uint32_t c = 0; c < n; c++) {
+		mr_place at = choose(&j, c, best[cut.t[c / 3].v[c % 3]], sides[mr_he_from(s->after, c)] > 1);
+		for (uint32_t k = 0; k < 3; k++)
+			parent[3 * c + k] = 3 * at.face + k;
+		memcpy(weight + 3 * c, &at.bary, sizeof at.bary);
+	}
+	*rows = (mr_rows_from){ n, 3, parent, weight };
 	return MR_OK;
 }
 
