@@ -138,7 +138,7 @@ mr_scope_end(mr_scope *s)
 	mr_mark_release(s->ctx, s->mark);
 }
 
-/* What the arena gets from here on is released at the end of the block, however that is left. */
+/* Releases at the end of the block, however it is left, all that was allocated after this line. */
 #define MR_SCOPE(context)                                                                                    \
 	mr_scope scope_ __attribute__((cleanup(mr_scope_end), unused)) = { (context), mr_mark_take(context) }
 

@@ -346,8 +346,8 @@ solve(filler *w, size_t order, size_t first, size_t end)
 	return MR_OK;
 }
 
-/* Where the surface around a loop is so poor that there is no solution in doubles that loop's order is lower.
- */
+/* Fairs loops together.  If their system has no solution in doubles, halves the set until one loop is left,
+ * which gets a lower order. */
 static mr_status
 fair(filler *w, size_t order, size_t first, size_t end)
 {
@@ -413,7 +413,7 @@ loop_of(const crossing *c, size_t f)
 	return c->patches->loop[c->patches->m.t[f - c->before].v[0]];
 }
 
-/* Whether a face is no fault of this one's: of two patches that of the shorter loop stands. */
+/* Whether the face does not meet face g, or g is of a longer loop, whose patch gives way. */
 static bool
 is_good(void *arg, uint32_t g)
 {
@@ -453,8 +453,7 @@ find_crossings(const filler *w, const mr_patches *patches, bool *bad, bool *at)
 	return any;
 }
 
-/* Where patches cross something their vertices there go to the middle of their neighbours, some times; those
- * that cross still are left out. */
+/* Smooths patches for a few rounds where they intersect anything, and drops those that still do. */
 static mr_status
 settle(filler *w, bool *bad, mr_patches *out)
 {

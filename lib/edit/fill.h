@@ -18,9 +18,9 @@ typedef struct mr_patches {
 } mr_patches;
 
 /*
- * Fills loops of m, any mesh: those that the options name; by default all but those whose length is that of a
- * circle of more than a quarter of the area of their component.  A loop that no patch fills without crossing
- * the surface or a shorter loop's patch stays open, and is reported.  out: in the arena.
+ * Fills boundary loops of m, any mesh: those that the options choose.  By default a loop stays open if a
+ * circle of its length has more than a quarter of its component's area.  A loop that no patch fills without
+ * crossing the surface or a shorter loop's patch stays open, and is reported.  out: in the arena.
  */
 mr_status mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out,
     mr_fill_result *result) MR_WARN_UNUSED;

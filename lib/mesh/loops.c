@@ -37,7 +37,7 @@ list_rims(mr_ctx *ctx, const mr_mesh *m, rims *r)
 	r->path = MR_NEW(ctx, n + 1, uint32_t);
 }
 
-/* What has come back to the path's place k is a loop. */
+/* The path has returned to its vertex k: takes what lies between as a loop. */
 static void
 close_loop(const mr_mesh *m, rims *r, size_t k, mr_loops *out)
 {
