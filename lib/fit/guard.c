@@ -38,7 +38,7 @@ typedef mr_fit_guard guard;
 static bool
 crosses(const layer *y, size_t f)
 {
-	return memchr(y->crosses + (f << 2 * y->depth), true, (size_t)1 << 2 * y->depth);
+	return memchr(y->crosses + (f << 2 * y->depth), 1, (size_t)1 << 2 * y->depth);
 }
 
 /* Whether an edge of a part of control face f closes beyond the angle of that cosine. */

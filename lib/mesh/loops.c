@@ -195,23 +195,25 @@ span_corners(span *s, const uint32_t *corner, size_t n)
 		for (size_t i = 0; i + length < n; i++)
 			choose(s, i, i + length);
 	emit(s, 0, n - 1);
+	s->corner = NULL;
 	mr_mark_release(s->ctx, mark);
 }
 
-/* n corners, from `first` on: a hundred of them at equal strides, then those between two of these. */
+/* Triangles of n corners: a hundred of them at equal strides, then those between two of these. */
 static void
 span_strides(span *s, const uint32_t *corner, size_t n)
 {
 	uint32_t some[MOST];
 	size_t count = n < MOST ? n : MOST;
 
+	if (n < 3)
+		return;
 	for (size_t i = 0; i < count; i++)
 		some[i] = corner[i * (n - 1) / (count - 1)];
 	span_corners(s, some, count);
 	for (size_t i = 0; i + 1 < count; i++) {
 		size_t a = i * (n - 1) / (count - 1), b = (i + 1) * (n - 1) / (count - 1);
-		if (b > a + 1)
-			span_strides(s, corner + a, b - a + 1);
+		span_strides(s, corner + a, b - a + 1);
 	}
 }
 

@@ -280,7 +280,7 @@ find_due(tree *x)
 
 	for (size_t f = 0; f < x->level[0].nf; f++) {
 		bool *own = x->crosses + parts * f;
-		x->due[f] = !x->moved || x->moved[f] || memchr(own, true, parts);
+		x->due[f] = !x->moved || x->moved[f] || memchr(own, 1, parts);
 		if (x->due[f])
 			memset(own, 0, parts * sizeof *own);
 	}
