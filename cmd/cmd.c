@@ -139,7 +139,7 @@ pass_failure(cmd *c)
 {
 	struct cmd_state *s = c->state;
 
-	if (c->tool->sink || !writes_stdout(c) || !is_pipe(STDOUT_FILENO))
+	if (c->sink || !writes_stdout(c) || !is_pipe(STDOUT_FILENO))
 		return;
 	signal(SIGPIPE, SIG_IGN); /* whether anyone is left who reads it or not */
 	if (s->writer || mr_writer_open(&c->ctx, STDOUT_FILENO, c->packing, &s->writer) == MR_OK)
@@ -602,15 +602,15 @@ work_on(cmd *c, mr_frame *f)
 	mr_frame before = { 0 };
 
 	MR_ENTER(&c->ctx);
-	if (!tool->sink)
+	if (!c->sink)
 		mr_frame_copy(&c->ctx, f, &before);
-	if (!tool->sink && !c->state->no_history)
+	if (!c->sink && !c->state->no_history)
 		MR_TRY(mr_frame_add_history(&c->ctx, f, c->state->history));
 	c->result = c->stats && tool->figures ? MR_NEW_ZERO(&c->ctx, CMD_RESULT, char) : NULL;
 	MR_TRY(tool->frame(c, f));
 	if (c->result)
 		cmd_figures(c, tool->figures, c->result);
-	if (tool->sink)
+	if (c->sink)
 		return findings_settle(&c->ctx, &c->state->book, f, c->quiet ? NULL : show_warning);
 	MR_TRY(mr_judge_losses(&c->ctx, &before, f));
 	if (tool->judged && !c->no_check)
@@ -839,7 +839,7 @@ run(cmd *c, int argc, char **argv, int *code)
 	if (tool->caches && !(c->cache = mr_cache_new()))
 		return mr_fail(&c->ctx, MR_EMEM, "no memory for a cache");
 	open_stats(c);
-	if (tool->sink)
+	if (c->sink)
 		open_text(c);
 	else
 		open_writer(c);
@@ -858,7 +858,7 @@ int
 main(int argc, char **argv)
 {
 	struct cmd_state state = { .out = -1 };
-	cmd c = { .tool = &cmd_this, .name = mr_file_name(argv[0]), .state = &state };
+	cmd c = { .tool = &cmd_this, .sink = cmd_this.sink, .name = mr_file_name(argv[0]), .state = &state };
 	int code = EXIT_DATA;
 
 	fill_closed();

@@ -86,6 +86,7 @@ struct cmd {
 	bool verbose, quiet, keep_going;
 	bool no_check; /* a judged tool is not judged */
 	bool stats;    /* figures are asked for: --stats */
+	bool sink;     /* as the tool's, unless prepare has it write a stream */
 	void *result;  /* of `frame`, for its figures; NULL: they are not asked for */
 	mr_outfile
 	    held; /* a file that is whole gets its name at the end, if all goes well; else it is dropped */

@@ -3,7 +3,7 @@
 #include "measure/report.h"
 
 static mr_compare_opts opts = MR_COMPARE_DEFAULTS;
-static const char *layer_a, *layer_b;
+static const char *layer_a, *layer_b, *column;
 static bool json;
 
 static const cmd_opt table[] = {
@@ -18,6 +18,9 @@ static const cmd_opt table[] = {
 	{ 0, "vertices", CMD_FLAG, &opts.vertices_only, 0, 0, NULL, "measure from the vertices alone", NULL },
 	{ 0, "tolerance", CMD_REAL, &opts.tolerance, 1e-9, 1, "T",
 	    "share of max within which its upper bound is sought", NULL },
+	{ 0, "column", CMD_TEXT, &column, 0, 0, "NAME",
+	    "write the stream with each vertex's distance as this column of the first layer, and no report",
+	    NULL },
 	{ 0 },
 };
 
@@ -34,6 +37,10 @@ open_other(cmd *c)
 	MR_TRY(cmd_layer_name(c, "--to", layer_b));
 	MR_TRY(cmd_idle(c, "samples", opts.vertices_only, "with --vertices"));
 	MR_TRY(cmd_idle(c, "tolerance", opts.vertices_only, "with --vertices"));
+	MR_TRY(cmd_idle(c, "json", column != NULL, "with --column"));
+	if (column && (!mr_name_valid(column, MR_COLUMN_MAX) || mr_column_of("mesh", column)))
+		return mr_fail(&c->ctx, MR_EUSAGE, "--column: no column can be called '%s'", column);
+	c->sink = !column;
 	if (n > 2)
 		return mr_fail(&c->ctx, MR_EUSAGE, "FILE_A and FILE_B are expected, not %zu files", n);
 	if (n == 0)
@@ -87,8 +94,26 @@ static const cmd_field figures[] = {
 	CMD_MEASURED(mr_distance, max_bound),
 	CMD_MEASURED(mr_distance, mean),
 	CMD_MEASURED(mr_distance, rms),
+	{ "q50", false, CMD_FIELD(mr_distance, quantile[0]) },
+	{ "q90", false, CMD_FIELD(mr_distance, quantile[1]) },
+	{ "q95", false, CMD_FIELD(mr_distance, quantile[2]) },
+	{ "q99", false, CMD_FIELD(mr_distance, quantile[3]) },
+	CMD_MEASURED(mr_distance, normal_mean),
+	{ "normal_q50", false, CMD_FIELD(mr_distance, normal_quantile[0]) },
+	{ "normal_q90", false, CMD_FIELD(mr_distance, normal_quantile[1]) },
+	{ "normal_q95", false, CMD_FIELD(mr_distance, normal_quantile[2]) },
+	{ "normal_q99", false, CMD_FIELD(mr_distance, normal_quantile[3]) },
 	{ 0 },
 };
+
+static mr_status
+put_map(cmd *c, mr_frame *f, const char *layer, const mr_mesh *a, const mr_mesh *b)
+{
+	double *distance = MR_NEW(&c->ctx, a->nv, double);
+
+	MR_TRY(mr_compare_vertices(&c->ctx, a, b, distance));
+	return mr_frame_put(&c->ctx, f, layer, column, (mr_shape){ 'v', 'd', 1 }, distance, a->nv);
+}
 
 static mr_status
 compare(cmd *c, mr_frame *f)
@@ -109,8 +134,14 @@ compare(cmd *c, mr_frame *f)
 	}
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, f, a, &ma));
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, second, b, &mb));
+	if (column)
+		MR_TRY(put_map(c, f, a, &ma, &mb));
+	if (column && !c->stats)
+		return MR_OK;
 	MR_TRY(mr_compare(&c->ctx, &ma, &mb, &opts, &r));
 	cmd_figures(c, figures, &r.both);
+	if (column)
+		return MR_OK;
 	mr_report_comparison(&r, f, a, b, json, &text);
 	cmd_print(c, "%s", text.s);
 	return MR_OK;

@@ -804,7 +804,9 @@ typedef struct mr_distance {
 	double max;       /* greatest of them: a lower bound of the one-sided Hausdorff distance */
 	double max_bound; /* an upper bound of it */
 	double mean, rms;
-	size_t samples; /* points measured for mean and rms */
+	size_t samples; /* points measured for mean, rms and what follows */
+	double quantile[4]; /* that 50, 90, 95, 99 % of the surface do not exceed */
+	double normal_mean, normal_quantile[4]; /* angles between normals, in degrees; NaN of a cloud */
 } mr_distance;
 
 /* Of two layers with the same connectivity: vertex by vertex, and |edge of b| / |edge of a|.  NaN where there
@@ -826,6 +828,11 @@ typedef struct mr_comparison {
 /* Two surfaces or clouds.  MR_EMESH where a or b has no points. */
 MR_API mr_status mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts,
     mr_comparison *comparison) MR_WARN_UNUSED;
+
+/* How far each vertex of a is from b, negative within where b is a closed, oriented manifold.  distance: a->nv, the
+ * caller's. */
+MR_API mr_status mr_compare_vertices(
+    mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, double *distance) MR_WARN_UNUSED;
 
 /*
  * Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.

@@ -86,6 +86,11 @@ sums_join(sums *s, const sums *t)
 
 static const sums SUMS_NONE = { INFINITY, 0, 0, 0, 0, 0 };
 
+/* What was measured at a point: the distance, the angle between the normals in degrees (NaN: none). */
+typedef struct sample {
+	double distance, angle, weight;
+} sample;
+
 /* One direction. */
 typedef struct job {
 	const mr_mesh *a, *b;
@@ -94,6 +99,8 @@ typedef struct job {
 	bool alike;        /* the faces of a and b have the same corners by number */
 	double piece_area; /* faces are cut into pieces of at most this */
 	sums *sums;        /* per grain of vertices or faces */
+	sample *samples;   /* of vertex i at i, or of face f from first[f] on */
+	size_t *first;     /* NULL: vertices */
 	double *bound;     /* per face of a */
 	piece *pieces;     /* of one batch, four children each: in `children` */
 	piece *children;
@@ -117,25 +124,46 @@ measure_vertices(void *arg, size_t begin, size_t end)
 	sums s = SUMS_NONE;
 
 	for (size_t i = begin; i < end; i++)
-		if (!j->used || j->used[i])
-			sums_add(&s, stays(j, i) ? 0 : sqrt(mr_bvh_closest(j->bvh, j->a->p[i]).dist2), 1);
+		if (!j->used || j->used[i]) {
+			double d = stays(j, i) ? 0 : sqrt(mr_bvh_closest(j->bvh, j->a->p[i]).dist2);
+			sums_add(&s, d, 1);
+			if (!j->first)
+				j->samples[i] = (sample){ d, NAN, 1 };
+		}
 	j->sums[begin / GRAIN] = s;
+}
+
+/* The angle between two normals, in degrees. */
+static double
+deviation(mr_v3 a, mr_v3 b)
+{
+	return mr_norm2(a) > 0 && mr_norm2(b) > 0 ? mr_angle(a, b) * 180 / MR_PI : NAN;
 }
 
 /* Measures the centroid of a piece; raises *bound where the piece may reach beyond what is measured so far.
  */
 static void
-measure_piece(const job *j, const mr_v3 v[3], double area, sums *s, double *bound)
+measure_piece(const job *j, const mr_v3 v[3], mr_v3 normal, double area, sums *s, sample *at, double *bound)
 {
 	mr_v3 c = centroid(v);
 	mr_closest near = mr_bvh_closest(j->bvh, c);
 	double d = sqrt(near.dist2), lipschitz = d + radius(v, c), convex;
 
 	sums_add(s, d, area);
+	*at = (sample){ d, deviation(normal, mr_face_cross(j->b, near.at.face)), area };
 	if (lipschitz <= s->max || lipschitz <= *bound)
 		return;
 	convex = convex_bound(j->b, near.at.face, v);
 	*bound = fmax(*bound, fmin(lipschitz, convex));
+}
+
+/* Into how many parts each side of face f is cut. */
+static int
+parts_of_side(const job *j, size_t f)
+{
+	double area = mr_norm(mr_face_cross(j->a, f)) / 2;
+
+	return (int)fmin(SIDE_MOST, fmax(1, ceil(sqrt(area / j->piece_area) - 1e-9)));
 }
 
 /* Cuts the face into side^2 triangles of its own shape and measures each. */
@@ -144,18 +172,19 @@ measure_face(const job *j, size_t f, sums *s, double *bound)
 {
 	const uint32_t *t = j->a->t[f].v;
 	mr_v3 p = j->a->p[t[0]], area2 = mr_face_cross(j->a, f);
-	double area = mr_norm(area2) / 2;
-	int side = (int)fmin(SIDE_MOST, fmax(1, ceil(sqrt(area / j->piece_area) - 1e-9)));
+	int side = parts_of_side(j, f);
+	double area = mr_norm(area2) / 2 / ((double)side * side);
+	sample *at = j->samples + j->first[f];
 	mr_v3 du = mr_mul(1.0 / side, mr_sub(j->a->p[t[1]], p)),
 	      dv = mr_mul(1.0 / side, mr_sub(j->a->p[t[2]], p));
 
-	area /= (double)side * side;
 	for (int u = 0; u < side; u++)
 		for (int w = 0; u + w < side; w++) {
 			mr_v3 o = mr_axpy(u, du, mr_axpy(w, dv, p)), x = mr_add(o, du), y = mr_add(o, dv);
-			measure_piece(j, (mr_v3[3]){ o, x, y }, area, s, bound);
+			measure_piece(j, (mr_v3[3]){ o, x, y }, area2, area, s, at++, bound);
 			if (u + w < side - 1)
-				measure_piece(j, (mr_v3[3]){ x, mr_add(x, dv), y }, area, s, bound);
+				measure_piece(
+				    j, (mr_v3[3]){ x, mr_add(x, dv), y }, area2, area, s, at++, bound);
 		}
 }
 
@@ -169,7 +198,8 @@ measure_faces(void *arg, size_t begin, size_t end)
 		const uint32_t *t = j->a->t[f].v;
 		j->bound[f] = 0;
 		if (stays(j, t[0]) && stays(j, t[1]) && stays(j, t[2]))
-			sums_add(&s, 0, mr_norm(mr_face_cross(j->a, f)) / 2);
+			sums_add(
+			    &s, 0, (j->samples[j->first[f]].weight = mr_norm(mr_face_cross(j->a, f)) / 2));
 		else
 			measure_face(j, f, &s, &j->bound[f]);
 	}
@@ -324,24 +354,110 @@ bound_max(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_dis
 	search(ctx, j, &q, effort, opts->tolerance, scale, d);
 }
 
+/* ---- quantiles ---- */
+
+/* The distance that this share of the weight does not exceed: Hoare's selection, by weight; NaN of none. */
+static double
+quantile(sample *s, size_t n, double share)
+{
+	double target = 0;
+
+	for (size_t i = 0; i < n; i++)
+		target += share * s[i].weight;
+	while (n > 1) {
+		double pivot = s[(n - 1) / 2].distance, below = 0;
+		size_t i = 0, j = n - 1;
+		for (;; i++, j--) {
+			while (s[i].distance < pivot)
+				i++;
+			while (s[j].distance > pivot)
+				j--;
+			if (i >= j)
+				break;
+			sample kept = s[i];
+			s[i] = s[j];
+			s[j] = kept;
+		}
+		for (i = 0; i <= j; i++)
+			below += s[i].weight;
+		if (target <= below) {
+			n = j + 1;
+		} else {
+			target -= below;
+			s += j + 1;
+			n -= j + 1;
+		}
+	}
+	return target > 0 ? s->distance : NAN;
+}
+
+/* Scales the weights so that they add up to 1; the mean distance. */
+static double
+weigh(sample *s, size_t n)
+{
+	double weight = 0, sum = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		weight += s[i].weight;
+		sum += s[i].weight * s[i].distance;
+	}
+	for (size_t i = 0; weight > 0 && i < n; i++)
+		s[i].weight /= weight;
+	return sum / weight;
+}
+
+/* Of all samples, those from a first: four quantiles each of a to b, b to a, both; at last of the angles. */
+static void
+find_quantiles(sample *s, size_t from_a, size_t n, mr_comparison *c)
+{
+	static const double share[4] = { 0.5, 0.9, 0.95, 0.99 };
+	mr_distance *d[3] = { &c->ab, &c->ba, &c->both };
+	sample *const begin[3] = { s, s + from_a, s };
+	const size_t count[3] = { from_a, n - from_a, n };
+
+	for (int angles = 0; angles < 2; angles++) {
+		for (size_t i = 0; angles && i < n; i++) {
+			bool known = !isnan(s[i].angle);
+			s[i].distance = known ? s[i].angle : 0;
+			s[i].weight = known ? s[i].weight : 0;
+		}
+		for (int k = 0; k < 3; k++) {
+			double mean = weigh(begin[k], count[k]);
+			double *to = angles ? d[k]->normal_quantile : d[k]->quantile;
+			for (int i = 0; i < 4; i++)
+				to[i] = quantile(begin[k], count[k], share[i]);
+			if (angles)
+				d[k]->normal_mean = mean;
+		}
+	}
+}
+
 /* ---- one direction ---- */
 
 static mr_distance
 distance_of(const sums *s)
 {
-	return (
-	    mr_distance){ s->min, s->max, s->max, s->sum / s->weight, sqrt(s->square / s->weight), s->count };
+	return (mr_distance){ .min = s->min,
+		.max = s->max,
+		.max_bound = s->max,
+		.mean = s->sum / s->weight,
+		.rms = sqrt(s->square / s->weight),
+		.samples = s->count };
 }
+
+/* All that was measured: for quantiles. */
+typedef struct samples {
+	sample *s;
+	size_t n, room;
+} samples;
 
 /* From a mesh with area: its vertices for the extremes, pieces of its faces for the integrals. */
 static void
-measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, double scale, mr_distance *d)
+measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_distance *d)
 {
-	size_t samples = opts->samples ? opts->samples : SAMPLES;
 	sums vertices, faces;
 
 	j->bound = MR_NEW(ctx, j->a->nf, double);
-	j->piece_area = area / (double)samples;
 	measure(ctx, j, j->a->nv, measure_vertices, &vertices);
 	measure(ctx, j, j->a->nf, measure_faces, &faces);
 	*d = distance_of(&faces);
@@ -350,24 +466,45 @@ measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, d
 	bound_max(ctx, j, opts, scale, d);
 }
 
+/* Makes room for the samples of every face, in pieces of this area at most, or of every vertex. */
+static void
+begin_samples(mr_ctx *ctx, job *j, samples *all)
+{
+	size_t n = 0;
+
+	if (j->piece_area > 0)
+		j->first = MR_NEW(ctx, j->a->nf, size_t);
+	for (size_t f = 0; j->first && f < j->a->nf; f++) {
+		j->first[f] = n;
+		n += (size_t)mr_square(parts_of_side(j, f));
+	}
+	n = j->first ? n : j->a->nv;
+	MR_RESERVE(ctx, all->s, all->n, n, &all->room);
+	j->samples = all->s + all->n;
+	memset(j->samples, 0, n * sizeof *j->samples);
+	all->n += n;
+}
+
 /* From a to b, which have faces, of area or not.  alike: their faces have the same corners by number.  scale:
  * a length that bounds are rounded by. */
 static void
 compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, bool alike,
-    double scale, mr_distance *out)
+    double scale, samples *all, mr_distance *out)
 {
-	MR_SCOPE(ctx);
-	job j = { .a = a, .b = b, .alike = alike && !opts->vertices_only };
 	double area = opts->vertices_only ? 0 : mr_mesh_area(ctx, a);
-	size_t count;
+	double count = opts->samples ? (double)opts->samples : SAMPLES;
+	job j = { .a = a, .b = b, .alike = alike && !opts->vertices_only, .piece_area = area / count };
+
+	begin_samples(ctx, &j, all);
+	MR_SCOPE(ctx);
 	mr_bvh *bvh;
 
 	mr_bvh_build(ctx, b, &bvh);
 	j.bvh = bvh;
 	if (a->nf > 0 && !opts->vertices_only)
-		mr_vertices_used(ctx, a->t, a->nf, a->nv, &j.used, &count);
+		mr_vertices_used(ctx, a->t, a->nf, a->nv, &j.used, &(size_t){ 0 });
 	if (area > 0) {
-		measure_surface(ctx, &j, opts, area, scale, out);
+		measure_surface(ctx, &j, opts, scale, out);
 	} else {
 		sums s;
 		measure(ctx, &j, a->nv, measure_vertices, &s);
@@ -445,9 +582,12 @@ measure_stretch(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, mr_deviation *d
 static mr_distance
 join(const mr_distance *a, const mr_distance *b)
 {
-	return (mr_distance){ fmin(a->min, b->min), fmax(a->max, b->max), fmax(a->max_bound, b->max_bound),
-		(a->mean + b->mean) / 2, sqrt((a->rms * a->rms + b->rms * b->rms) / 2),
-		a->samples + b->samples };
+	return (mr_distance){ .min = fmin(a->min, b->min),
+		.max = fmax(a->max, b->max),
+		.max_bound = fmax(a->max_bound, b->max_bound),
+		.mean = (a->mean + b->mean) / 2,
+		.rms = sqrt((a->rms * a->rms + b->rms * b->rms) / 2),
+		.samples = a->samples + b->samples };
 }
 
 static mr_status
@@ -457,13 +597,17 @@ compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *
 	mr_comparison c = { .corresponds = mr_same_triangles(a, b), .diagonal = mr_mesh_diagonal(b) };
 	double scale = fmax(mr_mesh_diagonal(a), c.diagonal);
 	mr_mesh fa, fb;
+	samples all = { 0 };
+	size_t from_a;
 
 	MR_TRY(mr_check_number(ctx, "tolerance", o->tolerance, 1e-9, 1));
 	MR_TRY(with_faces(ctx, a, &fa));
 	MR_TRY(with_faces(ctx, b, &fb));
-	compare_one_way(ctx, &fa, &fb, o, c.corresponds, scale, &c.ab);
-	compare_one_way(ctx, &fb, &fa, o, c.corresponds, scale, &c.ba);
+	compare_one_way(ctx, &fa, &fb, o, c.corresponds, scale, &all, &c.ab);
+	from_a = all.n;
+	compare_one_way(ctx, &fb, &fa, o, c.corresponds, scale, &all, &c.ba);
 	c.both = join(&c.ab, &c.ba);
+	find_quantiles(all.s, from_a, all.n, &c);
 	if (c.corresponds) {
 		measure_deviation(a, b, &c.deviation);
 		measure_stretch(ctx, a, b, &c.deviation);
@@ -479,4 +623,77 @@ mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opt
 
 	MR_ENTER(ctx);
 	return compare(ctx, a, b, opts ? opts : &defaults, out);
+}
+
+/* ---- a map ---- */
+
+typedef struct map_job {
+	const mr_mesh *a, *b;
+	const mr_bvh *bvh;       /* of b */
+	const mr_topology *topo; /* NULL: distances have no sign */
+	mr_v3 *normal;           /* of b's vertices */
+	double *distance;
+} map_job;
+
+/* The normal whose side tells inside from outside: of a face, of an edge the sum of both, of a vertex the
+ * mean by angles (Baerentzen, Aanaes 2005). */
+static mr_v3
+side_normal(const map_job *j, mr_place at)
+{
+	const double w[3] = { at.bary.x, at.bary.y, at.bary.z };
+	uint32_t f = at.face, twin = MR_NONE;
+
+	for (uint32_t i = 0; i < 3; i++) {
+		if (w[i] == 0 && w[(i + 1) % 3] == 0)
+			return j->normal[j->b->t[f].v[(i + 2) % 3]];
+		if (w[i] == 0)
+			twin = j->topo->twin[3 * f + (i + 1) % 3] / 3;
+	}
+	mr_v3 n = mr_unit(mr_face_cross(j->b, f));
+	return twin == MR_NONE ? n : mr_add(n, mr_unit(mr_face_cross(j->b, twin)));
+}
+
+static void
+map_vertices(void *arg, size_t begin, size_t end)
+{
+	const map_job *j = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_closest near = mr_bvh_closest(j->bvh, j->a->p[i]);
+		double d = sqrt(near.dist2);
+		bool within = j->topo && mr_dot(side_normal(j, near.at), mr_sub(j->a->p[i], near.point)) < 0;
+		j->distance[i] = within ? -d : d;
+	}
+}
+
+static bool
+is_closed(const mr_topology *topo, size_t nf)
+{
+	for (size_t h = 0; h < 3 * nf; h++)
+		if (topo->twin[h] == MR_NONE)
+			return false;
+	return true;
+}
+
+mr_status
+mr_compare_vertices(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, double *distance)
+{
+	MR_ENTER(ctx);
+	MR_SCOPE(ctx);
+	map_job j = { .a = a, .distance = distance };
+	mr_topology topo;
+	mr_mesh fb;
+	mr_bvh *bvh;
+
+	MR_TRY(with_faces(ctx, b, &fb));
+	j.b = &fb;
+	if (b->nf && mr_topology_build(ctx, b, &topo) == MR_OK && is_closed(&topo, b->nf)) {
+		j.topo = &topo;
+		j.normal = MR_NEW(ctx, b->nv, mr_v3);
+		mr_vertex_normals(ctx, b, NULL, j.normal);
+	}
+	mr_bvh_build(ctx, &fb, &bvh);
+	j.bvh = bvh;
+	mr_parallel(ctx, a->nv, GRAIN, map_vertices, &j);
+	return MR_OK;
 }

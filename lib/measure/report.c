@@ -505,6 +505,15 @@ static const figure distance_figures[] = {
 	{ "mean", REAL, offsetof(mr_distance, mean), NULL },
 	{ "rms", REAL, offsetof(mr_distance, rms), NULL },
 	{ "samples", COUNT, offsetof(mr_distance, samples), NULL },
+	{ "q50", REAL, offsetof(mr_distance, quantile[0]), NULL },
+	{ "q90", REAL, offsetof(mr_distance, quantile[1]), NULL },
+	{ "q95", REAL, offsetof(mr_distance, quantile[2]), NULL },
+	{ "q99", REAL, offsetof(mr_distance, quantile[3]), NULL },
+	{ "normal_mean", REAL, offsetof(mr_distance, normal_mean), NULL },
+	{ "normal_q50", REAL, offsetof(mr_distance, normal_quantile[0]), NULL },
+	{ "normal_q90", REAL, offsetof(mr_distance, normal_quantile[1]), NULL },
+	{ "normal_q95", REAL, offsetof(mr_distance, normal_quantile[2]), NULL },
+	{ "normal_q99", REAL, offsetof(mr_distance, normal_quantile[3]), NULL },
 };
 
 static const figure deviation_figures[] = {
@@ -544,9 +553,10 @@ comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const 
 	for (int i = 0; i < 3; i++)
 		distance_json(t, names[0][i], d[i]);
 	for (int i = 0; i < 3; i++) {
-		double unit = c->diagonal;
-		mr_distance x = { d[i]->min / unit, d[i]->max / unit, d[i]->max_bound / unit,
-			d[i]->mean / unit, d[i]->rms / unit, d[i]->samples };
+		mr_distance x = *d[i];
+		for (const figure *g = distance_figures; strcmp(g->name, "normal_mean"); g++)
+			if (g->kind == REAL)
+				*(double *)((char *)&x + g->offset) /= c->diagonal;
 		distance_json(t, names[1][i], &x);
 	}
 	mr_text_add(t, ",\"corresponds\":%s", c->corresponds ? "true" : "false");
@@ -559,12 +569,10 @@ comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const 
 }
 
 static void
-distance_text(mr_text *t, const char *name, const mr_distance *d, double unit)
+row_text(mr_text *t, const char *name, const double *x, size_t n, double unit)
 {
-	const double x[5] = { d->min, d->mean, d->rms, d->max, d->max_bound };
-
 	mr_text_add(t, "  %-12s", name);
-	for (int i = 0; i < 5; i++)
+	for (size_t i = 0; i < n; i++)
 		if (isfinite(x[i] / unit))
 			mr_text_add(t, " %12.6g", x[i] / unit);
 		else
@@ -575,16 +583,28 @@ distance_text(mr_text *t, const char *name, const mr_distance *d, double unit)
 static void
 comparison_text(const mr_comparison *c, const mr_frame *f, const char *a, const char *b, mr_text *t)
 {
+	const mr_distance *d[4] = { &c->ab, &c->ba, &c->both, &c->both };
+	static const char *const names[4] = { "a to b", "b to a", "both", "both, %" };
+	int rows = c->diagonal > 0 ? 4 : 3;
+
 	mr_text_add(t, "%s: frame %llu, a: %s, b: %s", f->name, (unsigned long long)f->number, a, b);
 	mr_text_figure(t, ", diagonal of b ", 6, c->diagonal);
 	mr_text_add(t, "\n");
 	mr_text_add(
 	    t, "  %-12s %12s %12s %12s %12s %12s\n", "distance", "min", "mean", "rms", "max", "at most");
-	distance_text(t, "a to b", &c->ab, 1);
-	distance_text(t, "b to a", &c->ba, 1);
-	distance_text(t, "both", &c->both, 1);
-	if (c->diagonal > 0)
-		distance_text(t, "both, %", &c->both, c->diagonal / 100);
+	for (int i = 0; i < rows; i++) {
+		const double x[5] = { d[i]->min, d[i]->mean, d[i]->rms, d[i]->max, d[i]->max_bound };
+		row_text(t, names[i], x, 5, i < 3 ? 1 : c->diagonal / 100);
+	}
+	mr_text_add(
+	    t, "  %-12s %12s %12s %12s %12s %12s\n", "quantile", "50 %", "90 %", "95 %", "99 %", "mean");
+	for (int i = 0; i < rows; i++)
+		row_text(t, names[i], d[i]->quantile, 4, i < 3 ? 1 : c->diagonal / 100);
+	if (!isnan(c->both.normal_mean)) {
+		const double *q = c->both.normal_quantile,
+			     x[5] = { q[0], q[1], q[2], q[3], c->both.normal_mean };
+		row_text(t, "normals, deg", x, 5, 1);
+	}
 	if (c->corresponds)
 		figures_text(t, deviation_figures, LENGTH(deviation_figures), &c->deviation);
 }
