@@ -93,7 +93,7 @@ static inline void
 mr_shade_see(mr_shades *s, double x)
 {
 	s->most = x > s->most ? x : s->most;
-	s->broken = s->broken || x != floor(x);
+	s->broken = s->broken || x > floor(x); /* which no NaN is */
 }
 
 /* What is full, by all that was seen. */

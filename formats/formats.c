@@ -179,6 +179,30 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	return MR_OK;
 }
 
+/* Vertices without a place stand where one is that has one. */
+static mr_status
+find_places(mr_ctx *ctx, mr_model *m)
+{
+	size_t at = 0;
+	bool *placed;
+	mr_v3 *p;
+
+	if (mr_first_infinite((const double *)m->p, 3 * m->nv) == 3 * m->nv)
+		return MR_OK;
+	while (at < m->nv && !mr_finite(m->p[at]))
+		at++;
+	if (at == m->nv)
+		return mr_fail(ctx, MR_EMESH, "none of %zu points has a place", m->nv);
+	m->placed = placed = MR_NEW(ctx, m->nv, bool);
+	p = MR_NEW(ctx, m->nv, mr_v3);
+	for (size_t i = 0; i < m->nv; i++) {
+		placed[i] = mr_finite(m->p[i]);
+		p[i] = m->p[placed[i] ? i : at];
+	}
+	m->p = p;
+	return MR_OK;
+}
+
 /* A surface gets the normals that are none from its faces. */
 static void
 mend_normals(mr_ctx *ctx, mr_model *m)
@@ -210,6 +234,7 @@ parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *da
 	MR_TRY(f->read(ctx, data, size, &got));
 	if (got.nv == 0)
 		return mr_fail(ctx, MR_EMESH, "%s without a vertex", f->name);
+	MR_TRY(find_places(ctx, &got));
 	mend_normals(ctx, &got);
 	mr_note(ctx, "%s: %zu vertices, %zu triangles", f->name, got.nv, got.nf);
 	*m = got;

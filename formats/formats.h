@@ -3,7 +3,8 @@
  *
  * Contract: a file is recognised by its bytes, never by its name alone; `.gz`
  * of any format is read from a file or a pipe.  Every index is checked and every
- * position is finite, so a model that was read is a valid layer.  Text numbers
+ * position is finite, so a model that was read is a valid layer: a vertex without
+ * a place stands where another does, and mr_import leaves it out.  Text numbers
  * are read and written so that doubles survive bit for bit.  What a format
  * cannot hold is reported as a finding.
  * Layer rule: formats include base, mesh and themselves; zlib in bytes.c, tinyobj
@@ -37,14 +38,15 @@ typedef struct mr_property {
  * `corner_texcoord`; normals likewise.
  */
 typedef struct mr_model {
-	const mr_v3 *p;                            /* nv */
-	const mr_v3 *normal;                       /* nv, as the file has them: not made unit */
-	const mr_v3 *scanner;                      /* nv: from where the point was seen */
-	const unsigned char *color;                /* 4 nv: red, green, blue, alpha */
-	const double *texcoord;                    /* 2 nv */
-	const mr_tri *t;                           /* nf */
-	const double *corner_texcoord;             /* 6 nf: of a triangle's corners; NaN of one without */
-	const mr_v3 *corner_normal;                /* 3 nf; zero of one without */
+	const mr_v3 *p;                /* nv */
+	const bool *placed;            /* nv, of a model that was read: the others are to go; NULL: all */
+	const mr_v3 *normal;           /* nv, as the file has them: not made unit */
+	const mr_v3 *scanner;          /* nv: from where the point was seen */
+	const unsigned char *color;    /* 4 nv: red, green, blue, alpha */
+	const double *texcoord;        /* 2 nv */
+	const mr_tri *t;               /* nf */
+	const double *corner_texcoord; /* 6 nf: of a triangle's corners; NaN of one without */
+	const mr_v3 *corner_normal;    /* 3 nf; zero of one without */
 	const uint32_t *group, *object, *material; /* nf, each a line of groups, objects, materials */
 	const uint32_t *smoothing;                 /* nf: smoothing groups of OBJ, 0 none */
 	const uint32_t *polygon;                   /* nf: the polygon that the triangle is a part of */

@@ -164,9 +164,6 @@ read_points(mr_ctx *ctx, const unsigned char *data, const las *l, mr_rows *r)
 		x[0] = l->scale.x * (int32_t)mr_load32(d, false) + l->origin.x;
 		x[1] = l->scale.y * (int32_t)mr_load32(d + 4, false) + l->origin.y;
 		x[2] = l->scale.z * (int32_t)mr_load32(d + 8, false) + l->origin.z;
-		if (!mr_finite(mr_rows_position(r, x)))
-			return mr_fail(
-			    ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", (size_t)(d - data));
 		for (size_t k = 0; l->color && k < 3; k++) {
 			unsigned c = mr_load16(d + l->color + 2 * k, false), lower = shift ? c & 255 : 0;
 			x[n++] = c >> shift;

@@ -5,6 +5,7 @@
 #include "formats/materials.h"
 #include "mesh/mend.h"
 #include "mesh/normals.h"
+#include "mesh/subset.h"
 #include "mesh/validate.h"
 #include "stream/record.h"
 
@@ -303,6 +304,26 @@ judge_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
 		mr_coarse(ctx, m->nv, m->nv, (floats ? of_floats : grain) / diagonal);
 }
 
+/* Leaves out the vertices without a place, and their faces. */
+static mr_status
+keep_placed(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
+{
+	const mr_mesh all = { .name = layer, .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
+	mr_subset kept;
+	size_t gone = 0;
+
+	if (!m->placed)
+		return MR_OK;
+	for (size_t i = 0; i < m->nv; i++)
+		gone += !m->placed[i];
+	mr_lost(ctx, NULL, gone, "points without a place");
+	MR_TRY(mr_subset_find(ctx, f, &all, m->placed, &kept));
+	mr_lost(ctx, NULL, m->nf - kept.nf, "faces at them");
+	if (m->nf && kept.nf == 0)
+		return mr_fail(ctx, MR_EMESH, "none of %zu faces has a place", m->nf);
+	return mr_layer_keep(ctx, f, layer, &kept);
+}
+
 static mr_status
 import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame, mr_import_result *result)
 {
@@ -325,6 +346,7 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	layer = o->layer ? o->layer : m.nf ? "mesh" : "points";
 	MR_TRY(mr_frame_new(ctx, name, &f));
 	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, layer, &m), "%s", path));
+	MR_TRY(mr_prefix(ctx, keep_placed(ctx, f, layer, &m), "%s", path));
 	if (o->welds)
 		MR_TRY(mr_layer_weld(ctx, f, layer, o->weld * unit, &joined));
 	if (joined)

@@ -48,8 +48,6 @@ position(obj *o, mr_scan *line)
 	MR_TRY(mr_scan_reals(line, "a vertex", 3, 7, x, &n));
 	if (n == 5)
 		return mr_scan_fail(line, line->p, "a vertex has 5 numbers, not 3, 4, 6 or 7");
-	if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2]))
-		return mr_scan_fail(line, line->p, "a coordinate is not finite");
 	o->numbers += (n == 4 && x[3] != 1) || (n > 6 && x[6] != 1);
 	if (n <= 4)
 		x[3] = x[4] = x[5] = (double)NAN;

@@ -83,7 +83,7 @@ read_vertex(off *f)
 	double x[MOST] = { 0 }, more[8] = { 0 };
 	const char *where;
 	mr_scan line;
-	mr_v3 p;
+	mr_v3 p = { 0, 0, 0 };
 
 	mr_skip_comments(&f->text);
 	where = f->text.p;
@@ -212,8 +212,6 @@ read_binary(off *f)
 	for (uint64_t i = 0; i < f->nv; i++, p += 4 * width) {
 		for (size_t k = 0; k < width; k++)
 			x[k] = mr_load_float(p + 4 * k, false);
-		if (!mr_finite(mr_rows_position(&f->rows, x)))
-			return mr_scan_fail(&f->text, p, "a coordinate is not finite");
 		mr_rows_put(&f->rows, x);
 	}
 	mr_rows_end(&f->rows);

@@ -1,6 +1,6 @@
 /*
  * PCD, the Point Cloud Library's format, in text, binary, and binary packed by LZF (M. Lehmann, liblzf),
- * field by field.  A point that is not finite is none, by its documentation, and left out.
+ * field by field.
  */
 #include "formats/format.h"
 
@@ -325,7 +325,6 @@ part_color(pcd *f)
 		f->x[f->fields + (size_t)k] = isnan(whole) ? whole : (double)(bits >> (16 - 8 * k) & 255);
 }
 
-/* The points: as many as are finite. */
 static mr_status
 read_points(pcd *f)
 {
@@ -338,8 +337,7 @@ read_points(pcd *f)
 			part_color(f);
 		if (seen)
 			memcpy(f->x + seen - 1, from, sizeof from);
-		if (mr_finite(mr_rows_position(&f->rows, f->x)))
-			mr_rows_put(&f->rows, f->x);
+		mr_rows_put(&f->rows, f->x);
 	}
 	return MR_OK;
 }

@@ -483,18 +483,6 @@ read_row(ply *f, const element *e, uint64_t row)
 	return mr_scan_fail(&f->text, f->text.p, "more numbers in a line than element %s has", e->name);
 }
 
-static mr_status
-put_vertex(ply *f, const char *where)
-{
-	mr_v3 p = mr_rows_position(&f->rows, f->row);
-
-	if (!mr_finite(p))
-		return mr_scan_fail(
-		    &f->text, where, "position %zu (%g %g %g) is not finite", f->rows.n, p.x, p.y, p.z);
-	mr_rows_put(&f->rows, f->row);
-	return MR_OK;
-}
-
 /* Room for the rows of an element, which has what it needs. */
 static mr_status
 begin_element(ply *f, const element *e)
@@ -518,11 +506,10 @@ read_element(ply *f, const element *e)
 {
 	MR_TRY(begin_element(f, e));
 	for (uint64_t row = 0; e->properties && row < e->rows; row++) {
-		const char *where = here(f);
 		size_t faces = f->rows.b.faces;
 		MR_TRY(read_row(f, e, row));
 		if (e->kind == VERTEX)
-			MR_TRY(put_vertex(f, where));
+			mr_rows_put(&f->rows, f->row);
 		else if (e->kind == FACE)
 			add_face(f);
 		else if (e->kind == STRIPS)

@@ -1,7 +1,7 @@
 /*
  * PTX, Leica's text of scans: columns, rows, the scanner's position and axes (seven lines), a matrix of four
  * rows, by which each point is multiplied from the left, then columns x rows lines x y z intensity [r g b].
- * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, and left out.
+ * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, which is no place.
  */
 #include "formats/format.h"
 
@@ -77,14 +77,12 @@ read_point(ptx *f, const scan *s)
 	if (n > 4 && n < 7)
 		return mr_scan_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
 	if (x[0] == 0 && x[1] == 0 && x[2] == 0)
-		return MR_OK;
+		x[0] = (double)NAN;
 	if (n < 7)
 		x[4] = x[5] = x[6] = (double)NAN;
 	p = mr_vec(m[0] * x[0] + m[4] * x[1] + m[8] * x[2] + m[12],
 	    m[1] * x[0] + m[5] * x[1] + m[9] * x[2] + m[13],
 	    m[2] * x[0] + m[6] * x[1] + m[10] * x[2] + m[14]);
-	if (!mr_finite(p))
-		return mr_scan_fail(&f->text, where, "a coordinate is not finite");
 	x[0] = p.x, x[1] = p.y, x[2] = p.z;
 	memcpy(x + 7, m + 12, 3 * sizeof *m);
 	mr_rows_put(&f->rows, x);

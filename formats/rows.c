@@ -13,7 +13,8 @@ mr_role_of(const char *name, size_t bytes)
 		{ "nz", MR_NZ }, { "normalx", MR_NX }, { "normaly", MR_NY }, { "normalz", MR_NZ },
 		{ "normal_x", MR_NX }, { "normal_y", MR_NY }, { "normal_z", MR_NZ }, { "r", MR_RED },
 		{ "g", MR_GREEN }, { "b", MR_BLUE }, { "a", MR_ALPHA }, { "red", MR_RED },
-		{ "green", MR_GREEN }, { "blue", MR_BLUE }, { "alpha", MR_ALPHA }, { "diffuse_red", MR_RED },
+		{ "green", MR_GREEN }, { "blue", MR_BLUE }, { "rf", MR_RED }, { "gf", MR_GREEN },
+		{ "bf", MR_BLUE }, { "alpha", MR_ALPHA }, { "diffuse_red", MR_RED },
 		{ "diffuse_green", MR_GREEN }, { "diffuse_blue", MR_BLUE }, { "s", MR_U }, { "t", MR_V },
 		{ "u", MR_U }, { "v", MR_V }, { "texture_u", MR_U }, { "texture_v", MR_V },
 		{ "texture_s", MR_U }, { "texture_t", MR_V }, { "scanner_x", MR_FROM_X },
@@ -100,12 +101,6 @@ mr_rows_room(mr_rows *r, uint64_t more)
 	return MR_OK;
 }
 
-mr_v3
-mr_rows_position(const mr_rows *r, const double *x)
-{
-	return mr_vec(x[r->at[MR_X] - 1], x[r->at[MR_Y] - 1], x[r->at[MR_Z] - 1]);
-}
-
 /* Room for the colour of a row, which those before it have none of; false where it has none either. */
 static bool
 begin_color(mr_rows *r, double red)
@@ -123,16 +118,20 @@ begin_color(mr_rows *r, double red)
 void
 mr_rows_put(mr_rows *r, const double *x)
 {
+	bool placed = mr_finite(mr_vec(x[r->at[MR_X] - 1], x[r->at[MR_Y] - 1], x[r->at[MR_Z] - 1]));
+
 	for (size_t k = 0; k < MR_PARTS; k++) {
 		const size_t *at = r->at + kinds[k].first, width = kinds[k].width;
 		if (!has_part(r, k) || (r->sparse && k == COLOR && !begin_color(r, x[*at - 1])))
 			continue;
 		for (size_t i = 0; i < width; i++)
-			r->part[k][width * r->n + i] = at[i] ? x[at[i] - 1] : (double)NAN;
+			r->part[k][width * r->n + i] = !placed && k > 0 ? 0
+			                               : at[i]          ? x[at[i] - 1]
+			                                                : (double)NAN;
 	}
 	for (size_t k = 0; k < r->columns; k++)
 		if (r->column[k].property)
-			mr_build_value(&r->b, r->column[k].property, r->n, x[k]);
+			mr_build_value(&r->b, r->column[k].property, r->n, placed ? x[k] : 0);
 	r->n++;
 }
 

@@ -68,10 +68,7 @@ void mr_rows_begin(mr_rows *r);
 /* Room for rows; MR_ERANGE beyond what indices can name. */
 mr_status mr_rows_room(mr_rows *r, uint64_t more) MR_WARN_UNUSED;
 
-/* The position of a row of all columns. */
-mr_v3 mr_rows_position(const mr_rows *r, const double *x);
-
-/* The next row, whose position is finite, where there is room. */
+/* The next row, where there is room; of one without a place, which is left out later, all else is 0. */
 void mr_rows_put(mr_rows *r, const double *x);
 
 /* Gives the vertices to the builder; reports what was lost of them. */

@@ -196,16 +196,7 @@ mr_scan_reals(mr_scan *line, const char *what, size_t least, size_t most, double
 mr_status
 mr_scan_position(mr_scan *t, mr_v3 *p)
 {
-	const char *where;
-	mr_v3 q;
-
-	mr_skip_space(t);
-	where = t->p;
-	MR_TRY(mr_scan_real(t, "a coordinate", &q.x));
-	MR_TRY(mr_scan_real(t, "a coordinate", &q.y));
-	MR_TRY(mr_scan_real(t, "a coordinate", &q.z));
-	if (!mr_finite(q))
-		return mr_scan_fail(t, where, "a coordinate is not finite");
-	*p = q;
-	return MR_OK;
+	MR_TRY(mr_scan_real(t, "a coordinate", &p->x));
+	MR_TRY(mr_scan_real(t, "a coordinate", &p->y));
+	return mr_scan_real(t, "a coordinate", &p->z);
 }

@@ -79,7 +79,7 @@ mr_status mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n
  */
 mr_status mr_scan_reals(mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count);
 
-/* Three finite numbers. */
+/* Three numbers. */
 mr_status mr_scan_position(mr_scan *t, mr_v3 *p);
 
 /* True for "nan", "-nan(ind)", "inf" and "Infinity" in any case of letters.  *x: that value. */

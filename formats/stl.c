@@ -49,8 +49,6 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		size_t at = HEADER + i / 3 * RECORD + 12 + i % 3 * 12;
 		p[i] = mr_vec(mr_load_float(data + at, false), mr_load_float(data + at + 4, false),
 		    mr_load_float(data + at + 8, false));
-		if (!mr_finite(p[i]))
-			return mr_fail(ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", at);
 	}
 	for (size_t i = 0; i < n; i++) /* which some programs use for colours */
 		used += mr_load16(data + HEADER + (i + 1) * RECORD - 2, false) != 0;

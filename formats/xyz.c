@@ -1,9 +1,9 @@
 /*
  * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  Semicolons part the columns where the
- * first row has one, else commas, else blanks.  Columns are told apart by names where there are any, else by
- * their number: 3 position; 6 normal, or colour where all are whole numbers of 0 to 255 and some beyond 1;
- * 7 intensity and colour, or colour and something; 9 and more colour and normal in either order.  Other
- * columns are properties.  A first line with one whole number is the number of points.
+ * line has one, else commas, else tabs, else blanks.  Columns are told apart by names where there are any,
+ * else by their number: 3 position; 6 normal, or colour where all are whole numbers of 0 to 255 and some
+ * beyond 1; 7 intensity and colour, or colour and something; 9 and more colour and normal in either order.
+ * Other columns are properties.  A first line with one whole number is the number of points.
  */
 #include "formats/format.h"
 
@@ -29,23 +29,21 @@ typedef struct table {
 	size_t columns, rows;
 	column column[COLUMNS];
 	size_t units[2], others[2]; /* rows of columns 3 to 5, 6 to 8 of length 1, of neither 0 nor 1 */
-	const char *first_row;      /* for sentences */
+	double lean; /* of seven columns: how much nearer the last is to its neighbour than the fourth */
+	const char *first_row; /* for sentences */
 	mr_rows points;
 } table;
 
-static bool
-separates(char c)
-{
-	return mr_is_blank(c) || c == ',' || c == ';';
-}
-
-/* What parts the cells of a line. */
+/* What parts the cells of a line: the first of these that it has, or blanks. */
 static char
-separator_of(const mr_scan *line)
+separator_of(const mr_scan *line, const char *s)
 {
 	size_t n = (size_t)(line->end - line->p);
 
-	return memchr(line->p, ';', n) ? ';' : memchr(line->p, ',', n) ? ',' : ' ';
+	for (; *s; s++)
+		if (memchr(line->p, *s, n))
+			return *s;
+	return ' ';
 }
 
 /* The end of the cell at hand. */
@@ -59,20 +57,6 @@ cell_end(const mr_scan *line, char separator)
 	return e;
 }
 
-/* Goes on behind a cell; false where something else than its end stands here. */
-static bool
-end_cell(mr_scan *line, char separator)
-{
-	const char *p = line->p;
-
-	mr_skip_blanks(line);
-	if (line->p == line->end)
-		return true;
-	if (separator == ' ')
-		return line->p > p;
-	return *line->p++ == separator;
-}
-
 static bool
 is_comment(const mr_scan *line)
 {
@@ -80,12 +64,14 @@ is_comment(const mr_scan *line)
 	       (line->end - line->p >= 2 && line->p[0] == '/' && line->p[1] == '/');
 }
 
-/* The next line that says something, without leading blanks. */
+/* The next line that says something, without blanks around it. */
 static bool
 next_row(mr_scan *text, mr_scan *line)
 {
 	while (mr_scan_line(text, line)) {
 		mr_skip_blanks(line);
+		while (line->end > line->p && mr_is_blank(line->end[-1]))
+			line->end--;
 		if (!is_comment(line))
 			return true;
 	}
@@ -98,24 +84,26 @@ next_row(mr_scan *text, mr_scan *line)
 static size_t
 names(mr_scan line, column c[COLUMNS])
 {
-	const char separator = separator_of(&line);
+	const char separator = separator_of(&line, ";,\t");
 	bool there[MR_ROLES] = { false };
 	size_t n = 0;
 
 	for (mr_skip_blanks(&line); line.p < line.end && n < COLUMNS; n++) {
 		bool quoted = *line.p == '"';
-		const char *w = line.p += quoted,
-			   *e = quoted ? memchr(w, '"', (size_t)(line.end - w)) : cell_end(&line, separator);
+		const char *w = line.p += quoted, *e = quoted ? memchr(w, '"', (size_t)(line.end - w)) : w;
 		if (!e)
 			return 0;
-		line.p = e + quoted;
+		line.p = e;
+		line.p = cell_end(&line, separator);
+		for (e = quoted ? e : line.p; e > w && mr_is_blank(e[-1]);)
+			e--;
 		c[n] = (column){
 			.role = mr_role_of(w, (size_t)(e - w)), .name = w, .name_bytes = (size_t)(e - w)
 		};
 		if (c[n].role > MR_ALPHA)
 			c[n].role = MR_NO_ROLE;
 		there[c[n].role] = true;
-		end_cell(&line, separator);
+		line.p += line.p < line.end;
 		mr_skip_blanks(&line);
 	}
 	return there[MR_X] && there[MR_Y] && there[MR_Z] ? n : 0;
@@ -162,21 +150,26 @@ read_head(table *t)
 
 /* ---- rows ---- */
 
-/* Goes on behind a number, or a word such as nan, and what parts it from the next; false where it is none. */
+/* Reads a number, a word such as nan, or an empty cell, which is none, and goes on behind what parts it from
+ * the next; false where it is something else. */
 static bool
 next_number(mr_scan *line, char separator, double *x)
 {
-	const char *w = line->p, *e = mr_real_read(w, line->end, x);
+	const char *e = mr_real_read(line->p, line->end, x), *end;
 
-	line->p = e ? e : w;
-	if (!e || !end_cell(line, separator)) {
-		line->p = w;
-		e = cell_end(line, separator);
-		if (!mr_word_not_finite(w, (size_t)(e - w), x))
+	if (!e || (e < line->end && *e != separator && !mr_is_blank(*e))) {
+		for (e = end = cell_end(line, separator); e > line->p && mr_is_blank(e[-1]);)
+			e--;
+		if (e > line->p && !mr_word_not_finite(line->p, (size_t)(e - line->p), x))
 			return false;
-		line->p = e;
-		end_cell(line, separator);
+		*x = e > line->p ? *x : (double)NAN;
+		e = end;
 	}
+	while (e < line->end && mr_is_blank(*e))
+		e++;
+	if (e < line->end && separator != ' ' && *e++ != separator)
+		return false;
+	line->p = e;
 	mr_skip_blanks(line);
 	return true;
 }
@@ -199,6 +192,8 @@ row_values(const table *t, mr_scan *line, double x[COLUMNS], size_t *count)
 		return mr_scan_fail(&t->text, line->p, "column %zu is '%s', not a number", n + 1,
 		    mr_word_shown(line->p, bytes, shown));
 	}
+	if (n + 1 == t->columns && t->separator != ' ' && line->end[-1] == t->separator)
+		x[n++] = (double)NAN; /* an empty cell is the last */
 	*count = n;
 	return MR_OK;
 }
@@ -228,7 +223,7 @@ survey(table *t)
 	while (next_row(&text, &line)) {
 		const mr_scan row = line;
 		if (t->rows == 0)
-			t->separator = separator_of(&line);
+			t->separator = separator_of(&line, ";,"); /* tabs between numbers are blanks */
 		MR_TRY(row_values(t, &line, x, &n));
 		if (t->rows == 0)
 			MR_TRY(begin_rows(t, &row, n));
@@ -245,6 +240,8 @@ survey(table *t)
 			t->units[k] += unit;
 			t->others[k] += !unit && mr_norm2(v) > 0;
 		}
+		if (n == 7 && mr_finite(mr_vec(x[4] - x[3], x[6] - x[5], 0)))
+			t->lean += fabs(x[4] - x[3]) - fabs(x[6] - x[5]);
 		t->rows++;
 	}
 	if (t->counted && t->rows < t->count)
@@ -308,18 +305,20 @@ guess_pair(table *t)
 		assign(t, color, MR_RED);
 }
 
-/* Intensity and colour, of a PTS, or colour and something. */
+/* Intensity and colour, as a PTS has them, or colour and something, whichever is nearer to the colour's two
+ * in the middle. */
 static void
 guess_seven(table *t)
 {
 	bool first = could_be_color(t, 3), last = could_be_color(t, 4) || (t->counted && most_of(t, 4) == 0);
 	bool either = first && last && !t->counted;
 
+	last &= !either || t->lean >= 0;
 	if (either)
-		mr_tell(
-		    t->ctx, MR_GUESSED, 1, "columns 4 to 6 are read as colors: columns 5 to 7 could be, too");
+		mr_tell(t->ctx, MR_GUESSED, 1, "columns %s are read as colors: columns %s could be, too",
+		    last ? "5 to 7" : "4 to 6", last ? "4 to 6" : "5 to 7");
 	if (first || last)
-		assign(t, last && !either ? 4 : 3, MR_RED);
+		assign(t, last ? 4 : 3, MR_RED);
 }
 
 static void
@@ -367,10 +366,7 @@ fill(table *t)
 	size_t n = 0;
 
 	while (next_row(&text, &line)) {
-		const char *where = line.p;
 		MR_TRY(row_values(t, &line, x, &n));
-		if (!mr_finite(mr_rows_position(&t->points, x)))
-			return mr_scan_fail(&t->text, where, "a coordinate is not finite");
 		mr_rows_put(&t->points, x);
 	}
 	return MR_OK;
@@ -426,6 +422,12 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	return mr_build_finish(&t.points.b, m);
 }
 
+static bool
+separates(char c)
+{
+	return mr_is_blank(c) || c == ',' || c == ';';
+}
+
 /* The first line that says something is numbers, one or three and more, or names with x, y and z among them.
  */
 bool
@@ -435,6 +437,7 @@ mr_xyz_sniff(const unsigned char *data, size_t size)
 	column c[COLUMNS];
 	uint64_t count;
 	size_t n = 0;
+	double x;
 
 	if (memchr(data, 0, size < 4096 ? size : 4096) || !next_row(&text, &line))
 		return false;
@@ -443,12 +446,13 @@ mr_xyz_sniff(const unsigned char *data, size_t size)
 	if (names(line, c))
 		return true;
 	for (; line.p < line.end && *line.p != '#'; n++) {
-		double x;
-		const char *e = mr_real_read(line.p, line.end, &x);
-		if (!e || (e < line.end && !separates(*e)))
+		const char *w = line.p;
+		while (line.p < line.end && !separates(*line.p))
+			line.p++;
+		if (mr_real_read(w, line.p, &x) != line.p && !mr_word_not_finite(w, (size_t)(line.p - w), &x))
 			return false;
-		for (line.p = e; line.p < line.end && separates(*line.p); line.p++)
-			;
+		while (line.p < line.end && separates(*line.p))
+			line.p++;
 	}
 	return n >= 3;
 }

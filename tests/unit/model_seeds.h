@@ -147,12 +147,12 @@ static const seed seeds[] = {
 	{ NULL,
 	    "2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5 1 2 3\n0 0 0 0 "
 	    "0 0 0\n",
-	    0, 1, 0 },
+	    0, 2, 0 },
 	{ NULL,
 	    "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH "
 	    "2\nHEIGHT 1\nPOINTS "
 	    "2\nDATA ascii\n0 0 0 16711680\nnan 0 0 1\n",
-	    0, 1, 0 },
+	    0, 2, 0 },
 	{ NULL, pcd_seed, sizeof pcd_seed, 1, 0 },
 	{ NULL, packed_seed, sizeof packed_seed, 2, 0 },
 	{ NULL, las_seed, sizeof las_seed, 2, 0 },
