@@ -1,6 +1,7 @@
 /* mr-compare -- measure how far two surfaces or clouds are apart.  See man/mr-compare.1. */
 #include "cmd.h"
 #include "measure/report.h"
+#include "stream/record.h"
 
 static mr_compare_opts opts = MR_COMPARE_DEFAULTS;
 static const char *layer_a, *layer_b, *column;
