@@ -303,6 +303,24 @@ takes(const cmd_tool *tool, char letter)
 	return false;
 }
 
+/* A source reads no stream: one by its last operand's name, of several, is its output. */
+static void
+take_output(cmd *c, cmd_args *args)
+{
+	char *last = args->operand_count > 1 ? args->operands[args->operand_count - 1] : "";
+	const char *end = strrchr(last, '.');
+	size_t n = 0;
+
+	if (!c->tool->source || c->output || !end || strcmp(end, ".mrs") != 0)
+		return;
+	c->output = last;
+	args->operand_count--;
+	for (size_t i = 0; i < args->typed_count; i++)
+		if (args->typed[i] != last)
+			args->typed[n++] = args->typed[i];
+	args->typed_count = n;
+}
+
 static void
 parse_command_line(cmd *c, int argc, char **argv)
 {
@@ -351,10 +369,12 @@ parse_command_line(cmd *c, int argc, char **argv)
 	try(c, parsed);
 	if (c->layer && cmd_list_lacks(c->layer)) /* what else it may be is the tool's: of one it is a list */
 		try(c, cmd_layer_name(c, "--layer", ""));
+	take_output(c, &s->args);
 	compose_history(c, &s->args);
 	c->operands = s->args.operands;
 	c->operand_count = s->args.operand_count;
-	try(c, place_stdin_once(&c->ctx, c->operands, c->tool->names_output, c->operand_count));
+	if (!c->tool->names_output)
+		try(c, place_stdin_once(&c->ctx, c->operands, 0, c->operand_count));
 }
 
 bool
@@ -380,14 +400,19 @@ cmd_output_name(cmd *c, const char *what, const char *suffix)
 {
 	size_t n = c->operand_count;
 	bool terminal = is_terminal(STDOUT_FILENO) && suffix;
+	char *last = n ? c->operands[n - 1] : NULL;
 
-	if (n == 0 || (n > 1 && !c->tool->reads_rest))
-		return mr_fail(&c->ctx, MR_EUSAGE, "one %s is expected, not %zu%s", what, n,
-		    n ? ": the stream to read is -i FILE or stdin" : "");
+	if (n == 0)
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s is not named", what);
+	if (!suffix || ((!mr_outname_suits(c->operands[0], suffix) || !strcmp(c->operands[0], "-")) &&
+			   mr_outname_suits(last, suffix))) {
+		memmove(c->operands + 1, c->operands, (n - 1) * sizeof *c->operands);
+		c->operands[0] = last;
+	}
+	MR_TRY(place_stdin_once(&c->ctx, c->operands, 1, n));
 	if (suffix && !mr_outname_suits(c->operands[0], suffix))
-		return mr_fail(&c->ctx, MR_EUSAGE, "%s does not end in %s: %s", c->operands[0], suffix,
-		    c->tool->reads_rest ? "it is written, and the streams behind it are read"
-					: "the stream to read is -i FILE");
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s is not named: %s does not end in %s", what,
+		    c->operands[0], suffix);
 	if (!strcmp(c->operands[0], "-") && terminal)
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s is not written to a terminal", what);
 	if (n > 1 && c->state->input)
@@ -767,8 +792,8 @@ static void
 read_streams(cmd *c)
 {
 	const cmd_tool *tool = c->tool;
-	size_t first = tool->reads_rest ? 1 : 0,
-	       end = tool->operands && !tool->reads_rest ? 0 : c->operand_count;
+	size_t first = tool->names_output ? 1 : 0,
+	       end = tool->operands && !tool->names_output ? 0 : c->operand_count;
 
 	if (first >= end)
 		read_input(c, c->state->input ? c->state->input : "-");

@@ -37,11 +37,11 @@ enum { CMD_RESULT = 512 }; /* bytes, for any tool's */
 #define CMD_FIELD(type, field) (offsetof(type, field) + 0 * sizeof(char[sizeof(type) <= CMD_RESULT ? 1 : -1]))
 #define CMD_COUNTED(type, field)                                                                             \
 	{                                                                                                    \
-#field, true, CMD_FIELD(type, field)                                                          \
+#field, true, CMD_FIELD(type, field)                                                         \
 	}
 #define CMD_MEASURED(type, field)                                                                            \
 	{                                                                                                    \
-#field, false, CMD_FIELD(type, field)                                                         \
+#field, false, CMD_FIELD(type, field)                                                        \
 	}
 
 typedef struct cmd_tool {
@@ -63,8 +63,8 @@ typedef struct cmd_tool {
 	mr_status (*finish)(cmd *c);
 
 	bool sink;         /* writes no stream; with operands of its own it reads -i FILE or stdin */
-	bool names_output; /* a sink that names its output by an operand: it has no -o */
-	bool reads_rest;   /* the operands behind that one are the streams to read */
+	bool names_output; /* a sink that names its output by an operand, and streams to read by others: it
+	                      has no -o */
 	bool sends;        /* `frame` sends by cmd_send itself */
 	bool fixed_layers; /* works on what it works on: it has no -l */
 	bool caches;       /* `frame` has c->cache */
@@ -110,8 +110,9 @@ mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN
  * passes. */
 mr_status cmd_layer_name(cmd *c, const char *option, const char *name) MR_WARN_UNUSED;
 
-/* For the prepare of a sink.  MR_EUSAGE unless the first operand, `what`, names an output that ends in `suffix`
- * (NULL: in anything, and a terminal will do), and where more operands follow than the tool reads. */
+/* For the prepare of a sink that names its output, `what`: by the last operand, or by the first where that
+ * ends in `suffix`; from then on it is the first.  MR_EUSAGE where it does not end so (NULL: in anything, and
+ * a terminal will do). */
 mr_status cmd_output_name(cmd *c, const char *what, const char *suffix) MR_WARN_UNUSED;
 
 /* For prepare, of a tool with operands of its own: reads that instead of stdin.  MR_EUSAGE beside -i. */

@@ -17,7 +17,7 @@ static const cmd_opt table[] = {
 	{ 0, "samples", CMD_COUNT, &opts.samples, 0, 1e9, "N",
 	    "pieces that each surface is integrated over, at least one a face; 0 is 100,000", NULL },
 	{ 0, "vertices", CMD_FLAG, &opts.vertices_only, 0, 0, NULL, "measure from the vertices alone", NULL },
-	{ 0, "tolerance", CMD_REAL, &opts.tolerance, 1e-9, 1, "T",
+	{ 0, "tolerance", CMD_SHARE, &opts.tolerance, 1e-9, 1, "T",
 	    "share of max within which its upper bound is sought", NULL },
 	{ 0, "column", CMD_TEXT, &column, 0, 0, "NAME",
 	    "write the stream with each vertex's distance as this column of the first layer, and no report",

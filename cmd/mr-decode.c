@@ -7,7 +7,7 @@ static int from;
 static bool blind;
 
 static const cmd_opt table[] = {
-	{ 'g', "gain", CMD_REAL, &opts.gain, -1e6, 1e6, "G", "multiply the detail by G", NULL },
+	{ 'g', "gain", CMD_SHARE, &opts.gain, -1e6, 1e6, "G", "multiply the detail by G", NULL },
 	{ 0, "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "J",
 	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
 	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",

@@ -83,7 +83,7 @@ finish(cmd *c)
 
 const cmd_tool cmd_this = {
 	.summary = "write a layer of each frame to a file",
-	.operands = "OUT",
+	.operands = "[FILE...] OUT",
 	.options = table,
 	.prepare = check,
 	.frame = export_frame,

@@ -7,7 +7,7 @@ static const cmd_opt table[] = {
 	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "local|least-squares", "how to fit", NULL },
 	{ 'n', "iterations", CMD_COUNT, &opts.iterations, 0, 1e6, "ITER",
 	    "how many; 0: 20 of local, 5 of least-squares", NULL },
-	{ 0, "step", CMD_REAL, &opts.step, 0, 1, "SHARE", "of the force taken in an iteration of local",
+	{ 0, "step", CMD_SHARE, &opts.step, 0, 1, "SHARE", "of the force taken in an iteration of local",
 	    NULL },
 	{ 0, "fairness", CMD_REAL, &opts.fairness, 0, 1e6, "WEIGHT", "of smoothness in least-squares", NULL },
 	{ 0 },

@@ -58,7 +58,7 @@ import_all(cmd *c)
 
 const cmd_tool cmd_this = {
 	.summary = "read models from files",
-	.operands = "[FILE...]",
+	.operands = "[FILE...] [OUT.mrs]",
 	.options = table,
 	.prepare = check,
 	.source = import_all,

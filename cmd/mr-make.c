@@ -60,7 +60,7 @@ make(cmd *c)
 
 const cmd_tool cmd_this = {
 	.summary = "generate a surface, or a cloud of points of it",
-	.operands = "SHAPE",
+	.operands = "SHAPE [OUT.mrs]",
 	.options = table,
 	.prepare = prepare,
 	.source = make,

@@ -6,7 +6,7 @@ static mr_remesh_opts opts = MR_REMESH_DEFAULTS;
 static const cmd_opt table[] = {
 	{ 'L', "length", CMD_LENGTH, CMD_LENGTH_OF(mr_remesh_opts, opts, length), 0, 1e300, "LENGTH",
 	    "target edge length; 0: by --ratio", NULL },
-	{ 'r', "ratio", CMD_REAL, &opts.ratio, 1e-6, 1e6, "RATIO",
+	{ 'r', "ratio", CMD_SHARE, &opts.ratio, 1e-6, 1e6, "RATIO",
 	    "target edge length, in edges of the equilateral triangle of mean area", NULL },
 	{ 'n', "rounds", CMD_COUNT, &opts.rounds, 0, 1000, "N", "rounds of split, collapse, flip, relocate",
 	    NULL },

@@ -118,7 +118,7 @@ finish(cmd *c)
 
 const cmd_tool cmd_this = {
 	.summary = "draw a shaded picture of each frame",
-	.operands = "OUT.png",
+	.operands = "[FILE...] OUT.png",
 	.options = table,
 	.prepare = prepare,
 	.frame = render_frame,

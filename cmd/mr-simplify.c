@@ -7,7 +7,7 @@ static const char *lock;
 
 static const cmd_opt table[] = {
 	{ 'n', "faces", CMD_COUNT, &opts.faces, 0, 4e9, "N", "stop at so many; 0: no such limit", NULL },
-	{ 'r', "ratio", CMD_REAL, &opts.ratio, 0, 1, "RATIO", "stop at this share; 0: no such limit", NULL },
+	{ 'r', "ratio", CMD_SHARE, &opts.ratio, 0, 1, "RATIO", "stop at this share; 0: no such limit", NULL },
 	{ 'e', "error", CMD_LENGTH, CMD_LENGTH_OF(mr_simplify_opts, opts, error), 0, 1e300, "LENGTH",
 	    "most distance to the planes of what is merged; 0: no such limit", NULL },
 	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },

@@ -46,5 +46,4 @@ const cmd_tool cmd_this = {
 	.finish = finish,
 	.sink = true,
 	.names_output = true,
-	.reads_rest = true,
 };

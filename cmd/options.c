@@ -81,20 +81,20 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 	return MR_OK;
 }
 
+/* A number, or hundredths with a % behind it: *relative. */
 static mr_status
-parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
+parse_share(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text, bool *relative)
 {
-	size_t n = strlen(text);
-	bool relative = n > 1 && text[n - 1] == '%';
-	char *number = mr_format(ctx, "%.*s", (int)(relative ? n - 1 : n), text);
 	char *end;
 	double x;
 
-	if (!number_at(number, &end, &x) || *end)
+	if (!number_at(text, &end, &x) || end[*end == '%'])
 		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
-	MR_TRY(parse_real(ctx, what, number, o->min, o->max, &x));
-	*(double *)o->value = relative ? x / 100 : x;
-	*(bool *)(void *)((double *)o->value + 1) = relative; /* which stands behind it */
+	*relative = *end == '%';
+	x /= *relative ? 100 : 1;
+	if (x < o->min || x > o->max)
+		return fail_range(ctx, what, text, o->min, o->max);
+	*(double *)o->value = x;
 	return MR_OK;
 }
 
@@ -142,6 +142,7 @@ parse_choice(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 static mr_status
 parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 {
+	bool relative;
 	char what[48];
 
 	snprintf(what, sizeof what, "--%s", o->name);
@@ -160,7 +161,10 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 		*(const char **)o->value = text;
 		return MR_OK;
 	case CMD_LENGTH:
-		return parse_length(ctx, o, what, text);
+		return parse_share(
+		    ctx, o, what, text, (bool *)(void *)((double *)o->value + 1)); /* behind it */
+	case CMD_SHARE:
+		return parse_share(ctx, o, what, text, &relative);
 	case CMD_VECTOR: {
 		double v[3];
 		MR_TRY(cmd_parse_reals(ctx, what, text, 3, v));
@@ -187,6 +191,52 @@ find(const cmd_opt *const tables[2], char letter, const char *name, size_t lengt
 				 : o->letter == letter)
 				return o;
 	return NULL;
+}
+
+enum { LONGEST = 32 };
+
+/* How many letters are put in, left out, changed or exchanged between two words: of the first alone, where it
+ * only lacks the rest. */
+static size_t
+distance(const char *a, size_t n, const char *b)
+{
+	size_t d[LONGEST + 1][LONGEST + 1], m = strlen(b);
+
+	if (n > LONGEST || m > LONGEST || !strncmp(a, b, n))
+		return n > LONGEST || m > LONGEST ? LONGEST : 0;
+	for (size_t i = 0; i <= n; i++)
+		for (size_t j = 0; j <= m; j++) {
+			bool other = i && j && a[i - 1] != b[j - 1];
+			size_t least = i && j ? d[i - 1][j - 1] + other : i + j;
+			if (i && j) {
+				least = d[i - 1][j] < least ? d[i - 1][j] + 1 : least;
+				least = d[i][j - 1] < least ? d[i][j - 1] + 1 : least;
+			}
+			if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+			    d[i - 2][j - 2] < least)
+				least = d[i - 2][j - 2] + 1;
+			d[i][j] = least;
+		}
+	return d[n][m];
+}
+
+/* Refuses a word that is no option, and names the one it is like: of which half is wrong at most. */
+static mr_status
+fail_unknown(mr_ctx *ctx, const cmd_opt *const tables[2], const char *word, size_t n)
+{
+	const char *like = NULL, *name = word + strspn(word, "-");
+	size_t letters = n - (size_t)(name - word), best = letters > 1 ? letters / 2 + 1 : 0;
+
+	for (int k = 0; k < 2; k++)
+		for (const cmd_opt *o = tables[k]; o && o->name; o++) {
+			size_t d = distance(name, letters, o->name);
+			if (d < best) {
+				best = d;
+				like = o->name;
+			}
+		}
+	return mr_fail(ctx, MR_EUSAGE, "unknown option %.*s%s%s%s", (int)n, word,
+	    like ? ": did you mean --" : "", like ? like : "", like ? "?" : "");
 }
 
 typedef struct parser {
@@ -243,7 +293,7 @@ parse_long(parser *p)
 	const cmd_opt *o = find(p->tables, 0, name, length, &table);
 
 	if (!o)
-		return mr_fail(p->ctx, MR_EUSAGE, "no option is called --%.*s", (int)length, name);
+		return fail_unknown(p->ctx, p->tables, name - 2, length + 2);
 	MR_TRY(take_value(p, o, table, equals ? equals + 1 : NULL));
 	if (changes_result(o, table))
 		note_typed(p, first);
@@ -258,10 +308,12 @@ parse_short(parser *p)
 	int table = 1, first = p->at;
 	bool noted = false;
 
+	if (letters[1] && find(p->tables, 0, letters, strlen(letters), &table))
+		return fail_unknown(p->ctx, p->tables, letters - 1, strlen(letters) + 1);
 	while (*letters) {
 		const cmd_opt *o = find(p->tables, *letters, NULL, 0, &table);
 		if (!o)
-			return mr_fail(p->ctx, MR_EUSAGE, "no option is called -%c", *letters);
+			return fail_unknown(p->ctx, p->tables, p->argv[p->at], strlen(p->argv[p->at]));
 		letters++;
 		noted = noted || changes_result(o, table);
 		if (takes_argument(o)) {
@@ -306,6 +358,7 @@ print_default(FILE *out, const cmd_opt *o)
 
 	switch (o->kind) {
 	case CMD_REAL:
+	case CMD_SHARE:
 	case CMD_LENGTH: /* none is relative */
 		fprintf(out, " (default %.6g)", *(double *)o->value);
 		break;

@@ -12,6 +12,7 @@ typedef enum cmd_kind {
 	CMD_FLAG,   /* bool: set */
 	CMD_OFF,    /* bool: cleared */
 	CMD_REAL,   /* double in [min, max] */
+	CMD_SHARE,  /* the same; 10% is 0.1 */
 	CMD_COUNT,  /* size_t in [min, max] */
 	CMD_CHOICE, /* int: the index of the argument in `metavar`, "implicit|explicit|taubin" */
 	CMD_TEXT,   /* const char * */

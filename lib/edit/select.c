@@ -126,7 +126,11 @@ take_field(mr_ctx *ctx, const char *field, const char **at, size_t *numbers, siz
 		return mr_numbers(at, 1, x);
 	case 'f':
 		++*numbers;
-		return mr_numbers(at, 1, x) && *x >= 0 && *x <= 1;
+		if (!mr_numbers(at, 1, x))
+			return false;
+		*x /= **at == '%' ? 100 : 1;
+		*at += **at == '%';
+		return *x >= 0 && *x <= 1;
 	case 'l':
 		return take_length(at, t);
 	case 'a':
