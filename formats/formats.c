@@ -216,7 +216,7 @@ mend_normals(mr_ctx *ctx, mr_model *m)
 	if (none == 0)
 		return;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
-	mr_vertex_normals(ctx, &mesh, NULL, normal);
+	mr_vertex_normals(&mesh, normal);
 	for (size_t i = 0; i < m->nv; i++)
 		if (mr_norm2(m->normal[i]) > 0)
 			normal[i] = m->normal[i];

@@ -200,7 +200,7 @@ displaced_normals(mr_ctx *ctx, mapping *m)
 	p = MR_NEW(ctx, surface.nv, mr_v3);
 	mr_domain_displace(ctx, &m->domain, m->height, 1, p);
 	surface.p = p;
-	mr_vertex_normals(ctx, &surface, NULL, m->normal);
+	mr_vertex_normals(&surface, m->normal);
 }
 
 static mr_status

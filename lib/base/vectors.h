@@ -13,6 +13,20 @@
 #define MR_INLINED inline
 #endif
 
+#include <stddef.h>
+#include <stdint.h>
+
+/* Tells memory of the rows, of size bytes, of the corners of a face that comes soon. */
+static inline void
+mr_soon(const void *rows, size_t size, const uint32_t v[3])
+{
+	for (int k = 0; k < 3; k++) {
+		const char *row = (const char *)rows + size * v[k];
+		__builtin_prefetch(row);
+		__builtin_prefetch(row + size - 1);
+	}
+}
+
 /* Four numbers side by side: two registers where a machine has no wider ones, to the same bits.  Not to be
  * passed by value. */
 typedef double mr_wide __attribute__((vector_size(4 * sizeof(double))));

@@ -293,7 +293,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	e.sound = MR_NEW_ZERO(ctx, n, bool);
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
 	mr_incidence_build(ctx, base, &inc);
-	mr_vertex_normals(ctx, base, &inc, normal);
+	mr_vertex_normals(base, normal);
 	e.ground = (mr_ground){ { base, normal }, &inc, mr_box_tolerance(box, 1e-14) };
 	find_all_feet(ctx, source, &e);
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
@@ -410,23 +410,22 @@ turn_normals(void *arg, size_t begin, size_t end)
 /* Normals of the moved surface itself turn to and fro where it is crumpled a little, and tear apart what
  * stands on them. */
 static void
-turn_frames(mr_ctx *ctx, const mr_mesh *rest, const mr_incidence *inc, mr_v3 *normal, decoder *j)
+turn_frames(mr_ctx *ctx, const mr_mesh *rest, mr_v3 *normal, decoder *j)
 {
 	mr_v3 *made;
 
 	j->rest = (mr_phong){ rest, j->d->rest_normal };
 	if (!j->rest.normal) {
 		made = MR_NEW(ctx, rest->nv, mr_v3);
-		mr_vertex_normals(ctx, rest, inc, made);
+		mr_vertex_normals(rest, made);
 		j->rest.normal = made;
 	}
-	j->turn = mr_turns(ctx, rest, j->surface.m, inc);
+	j->turn = mr_turns(ctx, rest, j->surface.m->p);
 	mr_parallel(ctx, rest->nv, 4096, turn_normals, &(turner){ j->turn, j->rest.normal, normal });
 }
 
 mr_status
-mr_decode(
-    mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p)
+mr_decode(mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p)
 {
 	MR_SCOPE(ctx);
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
@@ -434,7 +433,7 @@ mr_decode(
 	mr_mesh rest = *base;
 
 	rest.p = d->rest;
-	turn_frames(ctx, &rest, inc, normal, &j);
+	turn_frames(ctx, &rest, normal, &j);
 	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
 	return MR_OK;
 }

@@ -36,11 +36,10 @@ mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
 
 /*
- * Decodes onto the base, the normals and frames at rest turned as the base has around them: d checked; inc of
- * the base; the detail multiplied by gain.  p: d->n, the caller's.
+ * Decodes onto the base, the normals and frames at rest turned as the base has around them: d checked; the
+ * detail multiplied by gain.  p: d->n, the caller's.
  */
-mr_status mr_decode(
-    mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p);
+mr_status mr_decode(mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p);
 
 /* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
 mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);

@@ -5,18 +5,9 @@
  */
 #include "edit/turns.h"
 
-#include "base/parallel.h"
 #include "base/vectors.h"
 
-enum { GRAIN = 1024, AREA = 9, LANES = 8 };
-
-typedef struct turning {
-	const mr_mesh *rest, *now;
-	const mr_incidence *inc;
-	const mr_turn *from;
-	mr_turn *to;
-	double unit; /* of areas */
-} turning;
+enum { AREA = 9, LANES = 8, SOON = 16 };
 
 /* Some faces side by side: the coordinates of their corners at rest and now, and their turns. */
 typedef struct lanes {
@@ -57,17 +48,36 @@ turn_lanes(lanes *f, double unit)
 	}
 }
 
-MR_VECTORS static void
-faces_from_places(void *arg, size_t begin, size_t end)
+static MR_INLINED void
+add_turn(mr_turn *sum, const mr_turn *t)
 {
-	const turning *t = arg;
+	for (int i = 0; i < 10; i++)
+		sum->sum[i] += t->sum[i];
+}
+
+static MR_INLINED void
+add_to_corners(mr_turn *to, const uint32_t v[3], const mr_turn *t)
+{
+	for (int k = 0; k < 3; k++)
+		add_turn(&to[v[k]], t);
+}
+
+/* To each vertex the turns of its faces. */
+MR_VECTORS static void
+add_faces(const mr_mesh *rest, const mr_v3 *now, double unit, mr_turn *to)
+{
 	lanes s;
 
-	for (size_t first = begin; first < end; first += LANES) {
+	for (size_t first = 0; first < rest->nf; first += LANES) {
+		size_t n = rest->nf - first < LANES ? rest->nf - first : LANES;
 		for (size_t i = 0; i < LANES; i++) {
-			const uint32_t *v = t->rest->t[first + i < end ? first + i : first].v;
+			const uint32_t *v = rest->t[first + (i < n ? i : 0)].v;
+			const uint32_t *soon = rest->t[first + i + SOON < rest->nf ? first + i + SOON : 0].v;
+			mr_soon(rest->p, sizeof *now, soon);
+			mr_soon(now, sizeof *now, soon);
+			mr_soon(to, sizeof *to, soon);
 			for (int k = 0; k < 3; k++) {
-				mr_v3 x = t->rest->p[v[k]], y = t->now->p[v[k]];
+				mr_v3 x = rest->p[v[k]], y = now[v[k]];
 				s.x[3 * k][i] = x.x;
 				s.x[3 * k + 1][i] = x.y;
 				s.x[3 * k + 2][i] = x.z;
@@ -76,69 +86,49 @@ faces_from_places(void *arg, size_t begin, size_t end)
 				s.y[3 * k + 2][i] = y.z;
 			}
 		}
-		turn_lanes(&s, t->unit);
-		for (size_t i = 0; i < LANES && first + i < end; i++)
+		turn_lanes(&s, unit);
+		for (size_t i = 0; i < n; i++) {
+			mr_turn t;
 			for (int k = 0; k < 10; k++)
-				t->to[first + i].sum[k] = s.out[k][i];
+				t.sum[k] = s.out[k][i];
+			add_to_corners(to, rest->t[first + i].v, &t);
+		}
 	}
 }
 
-static MR_INLINED void
-add_turn(mr_turn *sum, const mr_turn *t)
-{
-	for (int i = 0; i < 10; i++)
-		sum->sum[i] += t->sum[i];
-}
-
+/* To each vertex those at the corners of its faces. */
 MR_VECTORS static void
-vertices_from_faces(void *arg, size_t begin, size_t end)
+add_rings(const mr_mesh *m, const mr_turn *from, mr_turn *to)
 {
-	const turning *t = arg;
-
-	for (size_t v = begin; v < end; v++) {
-		mr_turn s = { { 0 } };
-		for (size_t i = t->inc->start[v]; i < t->inc->start[v + 1]; i++)
-			add_turn(&s, &t->from[t->inc->face[i]]);
-		t->to[v] = s;
-	}
-}
-
-/* Of each face the sum of its corners. */
-MR_VECTORS static void
-faces_from_vertices(void *arg, size_t begin, size_t end)
-{
-	const turning *t = arg;
-
-	for (size_t f = begin; f < end; f++) {
-		const uint32_t *v = t->rest->t[f].v;
-		mr_turn s = t->from[v[0]];
-		add_turn(&s, &t->from[v[1]]);
-		add_turn(&s, &t->from[v[2]]);
-		t->to[f] = s;
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v, *soon = m->t[f + SOON < m->nf ? f + SOON : f].v;
+		mr_turn s = from[v[0]];
+		mr_soon(from, sizeof *from, soon);
+		mr_soon(to, sizeof *to, soon);
+		add_turn(&s, &from[v[1]]);
+		add_turn(&s, &from[v[2]]);
+		add_to_corners(to, v, &s);
 	}
 }
 
 const mr_turn *
-mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc)
+mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_v3 *now)
 {
 	/* 99 models bent, twisted and pulled: 150 folds and 2,587 pairs with 2, 139 and 2,523 with 3, 124 and
 	 * 2,411 with 5, 118 and 2,444 with 10 */
 	enum { PASSES = 2 };
 	double size = mr_box_diagonal(mr_box_of(rest->p, rest->nv));
-	turning t = { rest, now, inc, NULL, NULL, 1 / (size * size) };
-	mr_turn *vertex = MR_NEW(ctx, rest->nv, mr_turn), *face;
-	MR_SCOPE(ctx);
+	mr_turn *to = MR_NEW_ZERO(ctx, rest->nv, mr_turn), *from = MR_NEW(ctx, rest->nv, mr_turn);
 
-	face = MR_NEW(ctx, rest->nf, mr_turn);
-	for (int i = 0; i <= PASSES; i++) {
-		t.from = vertex;
-		t.to = face;
-		mr_parallel(ctx, rest->nf, GRAIN, i == 0 ? faces_from_places : faces_from_vertices, &t);
-		t.from = face;
-		t.to = vertex;
-		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
+	add_faces(rest, now, 1 / (size * size), to);
+	for (int i = 0; i < PASSES; i++) {
+		mr_turn *last = to;
+		to = from;
+		from = last;
+		memset(to, 0, rest->nv * sizeof *to);
+		add_rings(rest, from, to);
 	}
-	return vertex;
+	return to;
 }
 
 /* f F / A */

@@ -15,9 +15,9 @@ typedef struct mr_turn {
 
 /*
  * A smooth field, as the turns of single faces, and the normals of the moved surface, are not.
- * rest, now: the same vertices and faces; inc: of both.  Returns nv, in the arena.
+ * now: where the vertices of rest have gone.  Returns nv, in the arena.
  */
-const mr_turn *mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc);
+const mr_turn *mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_v3 *now);
 
 /* What becomes of the unit normal n of the surface at rest. */
 mr_v3 mr_turn_normal(const mr_turn *turn, mr_v3 n);

@@ -19,73 +19,77 @@ diagonal_of(const mr_mesh *m)
 	return mr_box_diagonal(box);
 }
 
-/* Some faces side by side: the coordinates of their corners, what each adds to a ring, and whether edges have
- * changed (bits 1, 2, 4) or it is wide (8). */
+/* Some faces side by side, in cells: their first two sides, what each adds to a ring, and whether edges have
+ * changed or it is wide. */
 typedef struct lanes {
-	double then[9][LANES], now[9][LANES];
-	double normal[6][LANES];
-	double longest2[LANES];
-	double odd[LANES];
+	float then[6][LANES], now[6][LANES];
+	float normal[6][LANES];
+	float longest2[LANES];
+	float odd[LANES];
 } lanes;
 
-static MR_INLINED mr_v3
-side(double p[9][LANES], int a, int b, int lane)
-{
-	return mr_vec(p[3 * b][lane] - p[3 * a][lane], p[3 * b + 1][lane] - p[3 * a + 1][lane],
-	    p[3 * b + 2][lane] - p[3 * a + 2][lane]);
-}
-
-/* The unit normal between two sides, or 0. */
-static MR_INLINED void
-put_normal(mr_v3 a, mr_v3 b, double normal[3][LANES], int lane)
-{
-	mr_v3 n = mr_cross(a, b);
-	double size2 = mr_norm2(n), scale = size2 > 0 ? 1 / sqrt(size2) : 0;
-
-	normal[0][lane] = scale * n.x;
-	normal[1][lane] = scale * n.y;
-	normal[2][lane] = scale * n.z;
-}
-
-static MR_INLINED double
-most(double a, double b)
+static MR_INLINED float
+most(float a, float b)
 {
 	return a > b ? a : b;
 }
 
+/* The squared lengths of the sides, and the unit normal, or 0. */
+static MR_INLINED void
+measure_sides(float s[6][LANES], float normal[3][LANES], float length2[3], int i)
+{
+	float ax = s[0][i], ay = s[1][i], az = s[2][i], bx = s[3][i], by = s[4][i], bz = s[5][i];
+	float cx = ax + bx, cy = ay + by, cz = az + bz;
+	float nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+	float size2 = nx * nx + ny * ny + nz * nz, scale = size2 > 0 ? 1 / sqrtf(size2) : 0;
+
+	normal[0][i] = scale * nx;
+	normal[1][i] = scale * ny;
+	normal[2][i] = scale * nz;
+	length2[0] = ax * ax + ay * ay + az * az;
+	length2[1] = bx * bx + by * by + bz * bz;
+	length2[2] = cx * cx + cy * cy + cz * cz;
+}
+
 /* Whether a length, of which this is the square, is more than twice or less than half of another. */
-static MR_INLINED double
+static bool
 changes(double was, double is)
 {
 	const double much2 = 4;
 
-	return (is > much2 * was ? 1 : 0) + (was > much2 * is ? 1 : 0);
+	return is > much2 * was || was > much2 * is;
+}
+
+static MR_INLINED float
+may_change(float was, float is)
+{
+	const float much2 = 3.9999f;
+
+	return (is > much2 * was ? 1.0f : 0.0f) + (was > much2 * is ? 1.0f : 0.0f);
 }
 
 static MR_INLINED void
-measure_lanes(lanes *s, double cell2)
+measure_lanes(lanes *s)
 {
 	for (int i = 0; i < LANES; i++) {
-		mr_v3 a = side(s->then, 0, 1, i), b = side(s->then, 1, 2, i), c = side(s->then, 2, 0, i);
-		mr_v3 d = side(s->now, 0, 1, i), e = side(s->now, 1, 2, i), f = side(s->now, 2, 0, i);
-		double a2 = mr_norm2(a), b2 = mr_norm2(b), c2 = mr_norm2(c);
-		double d2 = mr_norm2(d), e2 = mr_norm2(e), f2 = mr_norm2(f);
-		put_normal(a, b, s->normal, i);
-		put_normal(d, e, s->normal + 3, i);
-		s->longest2[i] = most(s->longest2[i], most(a2, most(b2, c2)));
-		s->odd[i] = changes(a2, d2) + changes(b2, e2) + changes(c2, f2) +
-		            (most(d2, most(e2, f2)) > cell2 ? 1 : 0);
+		float was[3], is[3];
+		measure_sides(s->then, s->normal, was, i);
+		measure_sides(s->now, s->normal + 3, is, i);
+		s->longest2[i] = most(s->longest2[i], most(was[0], most(was[1], was[2])));
+		s->odd[i] = may_change(was[0], is[0]) + may_change(was[1], is[1]) +
+		            may_change(was[2], is[2]) +
+		            (most(is[0], most(is[1], is[2])) > 0.9999f ? 1.0f : 0.0f);
 	}
 }
 
 static MR_INLINED void
-get_corners(const mr_v3 *p, const uint32_t v[3], double x[9][LANES], size_t lane)
+get_sides(const mr_v3 *p, const uint32_t v[3], double scale, float x[6][LANES], size_t lane)
 {
-	for (int k = 0; k < 3; k++) {
-		mr_v3 at = p[v[k]];
-		x[3 * k][lane] = at.x;
-		x[3 * k + 1][lane] = at.y;
-		x[3 * k + 2][lane] = at.z;
+	for (int k = 0; k < 2; k++) {
+		mr_v3 side = mr_sub(p[v[k + 1]], p[v[k]]);
+		x[3 * k][lane] = (float)(scale * side.x);
+		x[3 * k + 1][lane] = (float)(scale * side.y);
+		x[3 * k + 2][lane] = (float)(scale * side.z);
 	}
 }
 
@@ -100,7 +104,7 @@ keep_odd(mr_motion *m, size_t f)
 		uint32_t a = v[k], b = v[(k + 1) % 3];
 		double was = mr_norm2(mr_sub(m->then->p[b], m->then->p[a])),
 		       is = mr_norm2(mr_sub(m->now[b], m->now[a]));
-		if (changes(was, is) > 0 && a < b)
+		if (changes(was, is) && a < b)
 			m->changed[m->changes++] = 3 * (uint32_t)f + k;
 		widest2 = fmax(widest2, is);
 	}
@@ -109,25 +113,26 @@ keep_odd(mr_motion *m, size_t f)
 }
 
 static MR_INLINED mr_float4
-one_normal(double n[3][LANES], size_t lane)
+one_normal(float n[3][LANES], size_t lane)
 {
-	return (mr_float4){ (float)n[0][lane], (float)n[1][lane], (float)n[2][lane], 1 };
+	return (mr_float4){ n[0][lane], n[1][lane], n[2][lane], 1 };
 }
 
 MR_VECTORS static void
 look_at_faces(mr_motion *m)
 {
 	lanes s = { .longest2 = { 0 } };
-	double longest2 = 0;
+	float longest2 = 0;
+	double scale = m->cell > 0 ? 1 / m->cell : 0;
 
 	for (size_t first = 0; first < m->then->nf; first += LANES) {
 		size_t n = m->then->nf - first < LANES ? m->then->nf - first : LANES;
 		for (size_t i = 0; i < LANES; i++) {
 			const uint32_t *v = m->then->t[first + (i < n ? i : 0)].v;
-			get_corners(m->then->p, v, s.then, i);
-			get_corners(m->now, v, s.now, i);
+			get_sides(m->then->p, v, scale, s.then, i);
+			get_sides(m->now, v, scale, s.now, i);
 		}
-		measure_lanes(&s, m->cell * m->cell);
+		measure_lanes(&s);
 		for (size_t i = 0; i < n; i++) {
 			const uint32_t *v = m->then->t[first + i].v;
 			mr_float4 then = one_normal(s.normal, i), now = one_normal(s.normal + 3, i);
@@ -140,8 +145,8 @@ look_at_faces(mr_motion *m)
 		}
 	}
 	for (int i = 0; i < LANES; i++)
-		longest2 = fmax(longest2, s.longest2[i]);
-	m->longest = sqrt(longest2);
+		longest2 = most(longest2, s.longest2[i]);
+	m->longest = m->cell * sqrt((double)longest2);
 }
 
 mr_motion

@@ -690,7 +690,7 @@ mr_compare_vertices(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, double *dis
 	if (b->nf && mr_topology_build(ctx, b, &topo) == MR_OK && is_closed(&topo, b->nf)) {
 		j.topo = &topo;
 		j.normal = MR_NEW(ctx, b->nv, mr_v3);
-		mr_vertex_normals(ctx, b, NULL, j.normal);
+		mr_vertex_normals(b, j.normal);
 	}
 	mr_bvh_build(ctx, &fb, &bvh);
 	j.bvh = bvh;

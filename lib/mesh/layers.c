@@ -427,7 +427,7 @@ mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	if (!normals)
 		return MR_OK;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
-	mr_vertex_normals(ctx, m, NULL, normal);
+	mr_vertex_normals(m, normal);
 	return mr_layer_put(ctx, f, layer, "normal", normal, m->nv);
 }
 

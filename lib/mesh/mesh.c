@@ -237,19 +237,6 @@ mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m)
 	return m->nf ? sqrt(4 * mr_mesh_area(ctx, m) / (sqrt(3) * (double)m->nf)) : 0;
 }
 
-/* What a face gives to its corners' normals. */
-typedef struct face_normal {
-	mr_v3 unit;      /* zero where the face has no area */
-	double angle[3]; /* interior, at each corner */
-} face_normal;
-
-typedef struct normals_job {
-	const mr_mesh *m;
-	const mr_incidence *inc;
-	face_normal *face;
-	mr_v3 *normal;
-} normals_job;
-
 /* The angles of points (x, y), y > 0, from the x axis, within a few units in the last place: an eighth of a
  * turn at a time, there by a polynomial that is nearest to atan. */
 MR_VECTORS static void
@@ -271,59 +258,38 @@ find_angles(const double *y, const double *x, size_t n, double *angle)
 	}
 }
 
-enum { AT_ONCE = 64 };
+enum { AT_ONCE = 64, SOON = 16 };
 
-/* Of at most AT_ONCE faces. */
+/* To their corners' sums, of at most AT_ONCE faces; nothing where a face has no area. */
 static void
-normals_of_some(const normals_job *j, size_t first, size_t n)
+add_normals(const mr_mesh *m, size_t first, size_t n, mr_v3 *sum)
 {
 	double y[2 * AT_ONCE], x[2 * AT_ONCE], angle[2 * AT_ONCE];
+	mr_v3 unit[AT_ONCE];
 
 	for (size_t i = 0; i < n; i++) {
-		const uint32_t *v = j->m->t[first + i].v;
-		mr_v3 a = mr_sub(j->m->p[v[1]], j->m->p[v[0]]), b = mr_sub(j->m->p[v[2]], j->m->p[v[0]]);
+		const uint32_t *v = m->t[first + i].v;
+		const uint32_t *soon = m->t[first + i + SOON < m->nf ? first + i + SOON : first].v;
+		mr_v3 a = mr_sub(m->p[v[1]], m->p[v[0]]), b = mr_sub(m->p[v[2]], m->p[v[0]]);
 		mr_v3 cross = mr_cross(a, b);
 		double twice_area = mr_norm(cross);
 
 		y[2 * i] = y[2 * i + 1] = twice_area;
 		x[2 * i] = mr_dot(a, b);
 		x[2 * i + 1] = mr_dot(a, mr_sub(a, b));
-		j->face[first + i].unit = mr_mul(1 / twice_area, cross);
+		unit[i] = mr_mul(1 / twice_area, cross);
+		mr_soon(m->p, sizeof *m->p, soon);
+		mr_soon(sum, sizeof *sum, soon);
 	}
 	find_angles(y, x, 2 * n, angle);
 	for (size_t i = 0; i < n; i++) {
-		double *to = j->face[first + i].angle;
-		to[0] = angle[2 * i];
-		to[1] = angle[2 * i + 1];
-		to[2] = MR_PI - to[0] - to[1];
+		const uint32_t *v = m->t[first + i].v;
+		double a = angle[2 * i], b = angle[2 * i + 1];
 		if (!(y[2 * i] > 0))
-			j->face[first + i] = (face_normal){ 0 };
-	}
-}
-
-static void
-normals_of_faces(void *arg, size_t begin, size_t end)
-{
-	const normals_job *j = arg;
-
-	for (size_t f = begin; f < end; f += AT_ONCE)
-		normals_of_some(j, f, end - f < AT_ONCE ? end - f : AT_ONCE);
-}
-
-static void
-normals_of_vertices(void *arg, size_t begin, size_t end)
-{
-	normals_job *j = arg;
-
-	for (size_t v = begin; v < end; v++) {
-		mr_v3 sum = { 0, 0, 0 };
-		for (size_t i = j->inc->start[v]; i < j->inc->start[v + 1]; i++) {
-			const uint32_t *c = j->m->t[j->inc->face[i]].v;
-			const face_normal *f = &j->face[j->inc->face[i]];
-			int k = (c[1] == v) + 2 * ((c[0] != v) & (c[1] != v));
-			sum = mr_axpy(f->angle[k], f->unit, sum);
-		}
-		j->normal[v] = mr_unit(sum);
+			continue;
+		sum[v[0]] = mr_axpy(a, unit[i], sum[v[0]]);
+		sum[v[1]] = mr_axpy(b, unit[i], sum[v[1]]);
+		sum[v[2]] = mr_axpy(MR_PI - a - b, unit[i], sum[v[2]]);
 	}
 }
 
@@ -341,16 +307,11 @@ mr_area_normals(mr_ctx *ctx, const mr_mesh *m)
 }
 
 void
-mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal)
+mr_vertex_normals(const mr_mesh *m, mr_v3 *normal)
 {
-	MR_SCOPE(ctx);
-	normals_job j = { m, inc, MR_NEW(ctx, m->nf, face_normal), normal };
-	mr_incidence own;
-
-	if (!inc) {
-		mr_incidence_build(ctx, m, &own);
-		j.inc = &own;
-	}
-	mr_parallel(ctx, m->nf, 4096, normals_of_faces, &j);
-	mr_parallel(ctx, m->nv, 4096, normals_of_vertices, &j);
+	memset(normal, 0, m->nv * sizeof *normal);
+	for (size_t f = 0; f < m->nf; f += AT_ONCE)
+		add_normals(m, f, m->nf - f < AT_ONCE ? m->nf - f : AT_ONCE, normal);
+	for (size_t v = 0; v < m->nv; v++)
+		normal[v] = mr_unit(normal[v]);
 }

@@ -185,9 +185,9 @@ double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
 
 /*
  * Unit vertex normals weighted by angle (Thuermer, Wuethrich 1998); zero where a vertex has no face of
- * positive area.  inc: of the mesh, where it is there already, or NULL.  normal: nv, the caller's.
+ * positive area.  normal: nv, the caller's.
  */
-void mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal);
+void mr_vertex_normals(const mr_mesh *m, mr_v3 *normal);
 
 /* For each vertex the sum of the normals of its faces, as long as twice their areas; in the arena. */
 mr_v3 *mr_area_normals(mr_ctx *ctx, const mr_mesh *m);

@@ -616,7 +616,7 @@ find(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_mesh *out, ui
 	MR_TRY(mr_cloud_planes(ctx, c->p, c->n, AROUND, AROUND - 1, false, &f.s.planes));
 	spread(ctx, &f.s, c->n);
 	MR_TRY(mr_near_query(ctx, c->near, m->p, m->nv, NEAREST, near, NULL));
-	mr_vertex_normals(ctx, m, NULL, normal);
+	mr_vertex_normals(m, normal);
 	for (size_t v = 0; v < m->nv; v++)
 		f.side[v] = side_of(&f.s, near + NEAREST * v, m->p[v], normal[v]);
 	MR_TRY(cut_edges(ctx, &f, c));

@@ -67,7 +67,7 @@ mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_
 		    mr_dist(m->p[v], out->p[w]) < mr_dist(m->p[nearest[w]], out->p[w]))
 			nearest[w] = v;
 	}
-	mr_vertex_normals(ctx, out, NULL, normal);
+	mr_vertex_normals(out, normal);
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	mr_bvh_build(ctx, m, &bvh);
 	mr_parallel(

@@ -125,7 +125,7 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	mr_bvh *bvh;
 
 	mr_incidence_build(ctx, m, &inc);
-	mr_vertex_normals(ctx, m, &inc, normal);
+	mr_vertex_normals(m, normal);
 	mr_bvh_build(ctx, m, &bvh);
 	c.bvh = bvh;
 	c.least = mr_mesh_tolerance(m, 1e-9); /* none meets the face that it leaves */

@@ -14,7 +14,7 @@ empty(void *what)
 
 	mr_ctx_free(&cache->deform.keep);
 	mr_ctx_free(&cache->level.keep);
-	mr_ctx_free(&cache->connectivity.keep);
+	mr_ctx_free(&cache->rest.keep);
 }
 
 void

@@ -9,19 +9,17 @@
 #include "edit/deform.h"
 #include "subdivide/displaced.h"
 
-/* The faces around the vertices of base, and its normals where it was encoded: a delta mostly keeps them. */
-typedef struct mr_connectivity_cache {
+/* The normals of base where it was encoded: a delta mostly keeps them. */
+typedef struct mr_rest_cache {
 	mr_ctx keep;
-	mr_incidence base;
-	mr_v3 *rest_normal;
-	uint64_t base_serial; /* of its triangles; 0: none */
-	uint64_t rest_serial; /* of base.encoded; 0: none */
-} mr_connectivity_cache;
+	mr_v3 *normal;
+	uint64_t triangles, encoded; /* the serials of these columns of base; 0: none */
+} mr_rest_cache;
 
 struct mr_cache {
 	mr_deform_cache deform;
 	mr_level_cache level;
-	mr_connectivity_cache connectivity;
+	mr_rest_cache rest;
 };
 
 /* The cache, or an empty one for this frame alone where it is NULL. */

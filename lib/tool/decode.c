@@ -5,58 +5,40 @@
 #include "edit/handles.h"
 #include "tool/cache.h"
 
-/* Whether what was kept of a column is still true of the frame. */
-static bool
-still_there(const mr_frame *f, const char *layer, const char *name, uint64_t kept)
+/* The normals of base where it was encoded. */
+static const mr_v3 *
+rest_normals(mr_ctx *ctx, mr_rest_cache *kept, const mr_frame *f, mr_mesh rest)
 {
-	return !f->key && kept && mr_frame_find(f, layer, name)->serial == kept;
-}
-
-/* The faces around the vertices of base. */
-static void
-base_incidence(mr_ctx *ctx, mr_connectivity_cache *kept, mr_frame *f, const mr_mesh *base)
-{
+	uint64_t triangles = mr_frame_find(f, rest.name, "triangles")->serial,
+		 encoded = mr_frame_find(f, rest.name, "encoded")->serial;
 	mr_ctx *keep = mr_keep(ctx, &kept->keep);
 
-	if (still_there(f, base->name, "triangles", kept->base_serial))
-		return;
+	if (!f->key && kept->triangles == triangles && kept->encoded == encoded)
+		return kept->normal;
 	mr_ctx_free(keep);
-	kept->base_serial = kept->rest_serial = 0;
-	kept->rest_normal = NULL;
-	mr_incidence_build(keep, base, &kept->base);
-	kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
-}
-
-/* The normals of base where it was encoded. */
-static void
-rest_normals(mr_ctx *ctx, mr_connectivity_cache *kept, const mr_frame *f, const mr_mesh *base, mr_detail *d)
-{
-	mr_mesh rest = *base;
-
-	if (!kept->rest_normal)
-		kept->rest_normal = MR_NEW(&kept->keep, base->nv, mr_v3);
-	d->rest_normal = kept->rest_normal;
-	if (still_there(f, base->name, "encoded", kept->rest_serial))
-		return;
-	rest.p = d->rest;
-	mr_vertex_normals(ctx, &rest, &kept->base, kept->rest_normal);
-	kept->rest_serial = mr_frame_find(f, base->name, "encoded")->serial;
+	kept->triangles = 0;
+	kept->normal = MR_NEW(keep, rest.nv, mr_v3);
+	mr_vertex_normals(&rest, kept->normal);
+	kept->triangles = triangles;
+	kept->encoded = encoded;
+	return kept->normal;
 }
 
 static mr_status
-decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_connectivity_cache *kept)
+decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_rest_cache *kept)
 {
 	mr_detail detail;
-	mr_mesh base;
+	mr_mesh base, rest;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	base_incidence(ctx, kept, f, &base);
 	MR_TRY(mr_response_apply(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
-	rest_normals(ctx, kept, f, &base, &detail);
+	rest = base;
+	rest.p = detail.rest;
+	detail.rest_normal = rest_normals(ctx, kept, f, rest);
 	p = MR_NEW(ctx, detail.n, mr_v3);
-	MR_TRY(mr_decode(ctx, &base, &kept->base, &detail, o->gain, p));
+	MR_TRY(mr_decode(ctx, &base, &detail, o->gain, p));
 	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));
 	return mr_layer_followed(ctx, f, "base");
 }
@@ -166,7 +148,7 @@ decode(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
 	MR_TRY(mr_check_choice(ctx, "from", o->from, MR_FROM_CONTROL));
 	MR_TRY(choose(ctx, f, o, &from));
 	if (from == MR_FROM_DETAIL)
-		MR_TRY(decode_detail(ctx, f, o, &cache->connectivity));
+		MR_TRY(decode_detail(ctx, f, o, &cache->rest));
 	else
 		MR_TRY(decode_control(ctx, f, o, cache));
 	mr_frame_drop(f, "handles", NULL, 0);

@@ -44,7 +44,7 @@ set_up(filled *w)
 
 	find_nearest(w);
 	w->normal = MR_NEW(w->ctx, w->s.all.nv, mr_v3);
-	mr_vertex_normals(w->ctx, &w->s.all, NULL, w->normal);
+	mr_vertex_normals(&w->s.all, w->normal);
 	w->none = MR_NEW(w->ctx, w->s.rim + 1, bool);
 	o.order = 1;
 	o.apart = true;

@@ -19,7 +19,7 @@ put_mesh(mr_ctx *ctx, mr_frame *f, const mr_make_opts *o, mr_mesh *m)
 	if (o->texcoords)
 		mr_solid_texcoords(ctx, o->solid, m, &uv);
 	if (o->noise > 0) {
-		mr_vertex_normals(ctx, m, NULL, normal);
+		mr_vertex_normals(m, normal);
 		memcpy(p, m->p, m->nv * sizeof *p);
 		mr_add_noise(p, normal, m->nv, deviation(o, m), o->seed);
 		m->p = p;

@@ -123,7 +123,7 @@ put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_resul
 		MR_TRY(mr_layer_get_rows(ctx, f, layer, "normal", m.nv, &there));
 	normal = MR_NEW(ctx, m.nv, mr_v3);
 	if (m.nf)
-		mr_vertex_normals(ctx, &m, NULL, normal);
+		mr_vertex_normals(&m, normal);
 	else
 		MR_TRY(of_points(ctx, f, &m, o, there, normal, r));
 	finish(o, there, m.nv, normal, r);

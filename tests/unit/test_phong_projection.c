@@ -21,7 +21,7 @@ set_up(scene *x, mr_mesh m)
 	x->edge = mr_mesh_edge_scale(&ctx, &m);
 	mr_incidence_build(&ctx, &x->m, &x->inc);
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
-	mr_vertex_normals(&ctx, &x->m, &x->inc, normal);
+	mr_vertex_normals(&x->m, normal);
 	x->g = (mr_ground){ { &x->m, normal }, &x->inc, 1e-13 * mr_mesh_diagonal(&x->m) };
 }
 

@@ -181,7 +181,7 @@ places_stay_on_their_side(void **state)
 	(void)state;
 	map_of(MR_SPHERE, 0.001, 0.5, 1000, &m, &out, &map);
 	normal = MR_NEW(&ctx, out.nv, mr_v3);
-	mr_vertex_normals(&ctx, &out, NULL, normal);
+	mr_vertex_normals(&out, normal);
 	mr_bvh_build(&ctx, &m, &bvh);
 	for (size_t v = 0; v < out.nv; v++) {
 		if (hypot(out.p[v].x, out.p[v].y) > 0.8) /* at the rim */

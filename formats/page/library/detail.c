@@ -18,7 +18,6 @@ typedef struct parts {
 typedef struct detail {
 	mr_ctx ctx;
 	mr_mesh base;
-	mr_incidence inc;
 	mr_detail of;
 } detail;
 
@@ -46,8 +45,7 @@ detail_new(const parts *p)
 	mr_ctx_init(&d->ctx, 1);
 	normal = MR_NEW(&d->ctx, p->nv, mr_v3);
 	d->base = (mr_mesh){ "base", p->rest, p->triangles, p->nv, p->nf };
-	mr_incidence_build(&d->ctx, &d->base, &d->inc);
-	mr_vertex_normals(&d->ctx, &d->base, &d->inc, normal);
+	mr_vertex_normals(&d->base, normal);
 	d->of = (mr_detail){ p->n, { p->face, whole_bary(&d->ctx, p->bary, p->n) }, p->height, p->offset,
 		p->rest, normal };
 	return d;
@@ -69,7 +67,7 @@ detail_decode(detail *d, const mr_v3 *p, mr_v3 *out)
 	mr_mesh base = d->base;
 
 	base.p = p;
-	return mr_decode(&d->ctx, &base, &d->inc, &d->of, 1, out) == MR_OK;
+	return mr_decode(&d->ctx, &base, &d->of, 1, out) == MR_OK;
 }
 
 /* Places of n vertices by their response to maps about `origin`, a map for each handle; map: changed. */
