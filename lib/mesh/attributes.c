@@ -260,7 +260,52 @@ mr_carried_make(const mr_ctx *ctx, const mr_carried *c, size_t parts, size_t fir
 }
 
 mr_status
-mr_carried_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_carried *c)
+mr_carried_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_carried *list, size_t count)
 {
-	return mr_frame_put(ctx, f, layer, c->name, c->shape, c->to, c->rows);
+	for (const mr_carried *c = list; c < list + count; c++)
+		MR_TRY(mr_frame_put(ctx, f, layer, c->name, c->shape, c->to, c->rows));
+	return MR_OK;
+}
+
+/* ---- all of a layer ---- */
+
+static bool
+goes_along(const mr_column *c, const char *layer, const char *const *but)
+{
+	const mr_column_info *info = mr_column_of(layer, c->name);
+
+	for (; but && *but; but++)
+		if (!strcmp(c->name, *but))
+			return false;
+	return !strcmp(c->layer, layer) && (info ? info->kind >= MR_MEAN : c->shape.element != '-');
+}
+
+bool
+mr_columns_go_along(const mr_frame *f, const char *layer, const char *const *but)
+{
+	for (size_t i = 0; i < f->count; i++)
+		if (goes_along(&f->columns[i], layer, but))
+			return true;
+	return false;
+}
+
+mr_status
+mr_columns_descend(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const mr_descent *d, mr_carried **list, size_t *count)
+{
+	mr_carried *c = *list = MR_NEW(ctx, f->count, mr_carried);
+
+	for (size_t i = 0; i < f->count; i++) {
+		char element = f->columns[i].shape.element;
+		bool of_vertices = element == 'v';
+		if (!goes_along(&f->columns[i], layer, d->but))
+			continue;
+		MR_TRY(mr_carried_begin(
+		    ctx, f, i, of_vertices ? d->nv : d->nf, of_vertices ? d->to_nv : d->to_nf, c));
+		if (element != '-')
+			MR_TRY(d->make(d->arg, ctx, c));
+		c++;
+	}
+	*count = (size_t)(c - *list);
+	return MR_OK;
 }

@@ -60,6 +60,25 @@ typedef struct mr_carried {
 	size_t rows;
 } mr_carried;
 
+/* A surface and one made of it: their vertices and faces, what does not go along (ends with NULL; NULL:
+ * nothing), and how a column of vertices or faces is made. */
+typedef struct mr_descent {
+	size_t nv, nf, to_nv, to_nf;
+	const char *const *but;
+	mr_status (*make)(void *arg, mr_ctx *ctx, mr_carried *c);
+	void *arg;
+} mr_descent;
+
+/* Whether the layer has columns that go along but for those. */
+bool mr_columns_go_along(const mr_frame *f, const char *layer, const char *const *but);
+
+/*
+ * The columns of a layer that go along to a surface made of it: those by convention of kinds from MR_MEAN on,
+ * and all that are none by convention. list: *count of them, in the arena, for mr_carried_put.
+ */
+mr_status mr_columns_descend(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_descent *d,
+    mr_carried **list, size_t *count) MR_WARN_UNUSED;
+
 /* Column i of the frame, which must have `before` rows, and room for `rows` of it. */
 mr_status mr_carried_begin(
     mr_ctx *ctx, mr_frame *f, size_t i, size_t before, size_t rows, mr_carried *c) MR_WARN_UNUSED;
@@ -67,7 +86,8 @@ mr_status mr_carried_begin(
 /* Makes the rows of c from `first` on.  Of what corners have, three rows a face, `parts` is 3, else 1. */
 void mr_carried_make(const mr_ctx *ctx, const mr_carried *c, size_t parts, size_t first, mr_rows_from r);
 
-/* Puts it into a layer. */
-mr_status mr_carried_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_carried *c) MR_WARN_UNUSED;
+/* Puts them into a layer. */
+mr_status mr_carried_put(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const mr_carried *list, size_t count) MR_WARN_UNUSED;
 
 #endif

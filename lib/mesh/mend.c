@@ -148,7 +148,7 @@ turn_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *flipped)
 		MR_TRY(mr_carried_begin(ctx, f, i, m->nf, m->nf, &c));
 		c.kind = MR_LABEL;
 		mr_carried_make(ctx, &c, 3, 0, (mr_rows_from){ 3 * m->nf, 1, of, NULL });
-		MR_TRY(mr_carried_put(ctx, f, m->name, &c));
+		MR_TRY(mr_carried_put(ctx, f, m->name, &c, 1));
 	}
 	mr_lost(ctx, m->name, mr_layer_has(f, m->name, "normal") || mr_layer_has(f, m->name, "corner_normal"),
 	    "normals of a surface whose faces are turned");

@@ -85,7 +85,7 @@ mr_layer_gather(mr_ctx *ctx, mr_frame *f, const char *layer, char element, const
 		MR_TRY(mr_carried_begin(ctx, f, i, (size_t)f->columns[i].rows, n, &c));
 		c.kind = MR_LABEL;
 		mr_carried_make(ctx, &c, 1, 0, (mr_rows_from){ n, 1, of, NULL });
-		MR_TRY(mr_carried_put(ctx, f, name, &c));
+		MR_TRY(mr_carried_put(ctx, f, name, &c, 1));
 	}
 	return MR_OK;
 }

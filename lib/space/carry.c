@@ -11,7 +11,7 @@ static const double SAME = 1e-6;
 /* ---- seams ---- */
 
 static bool
-is_of_corners(const mr_column *c)
+is_of_corners(const mr_carried *c)
 {
 	return c->shape.element == 'f' && c->shape.components % 3 == 0 && !strncmp(c->name, "corner_", 7);
 }
@@ -187,52 +187,45 @@ find_vertices(mr_ctx *ctx, const mr_successor *s)
 	return (mr_rows_from){ n, 3, parent, (const double *)s->place.bary };
 }
 
-static bool
-goes_along(const mr_column *c, const char *layer)
-{
-	const mr_column_info *info = mr_column_of(layer, c->name);
-
-	if (strcmp(c->layer, layer) || !strcmp(c->name, "polygon"))
-		return false;
-	return info ? info->kind >= MR_MEAN && info->kind != MR_DIRECTION : c->shape.element != '-';
-}
+/* Found anew, or of no use to other triangles. */
+static const char *const BUT[] = { "polygon", "normal", "corner_normal", NULL };
 
 bool
 mr_layer_carries(const mr_frame *f, const char *layer)
 {
-	for (size_t i = 0; i < f->count; i++)
-		if (goes_along(&f->columns[i], layer))
-			return true;
-	return false;
+	return mr_columns_go_along(f, layer, BUT);
+}
+
+typedef struct making {
+	const mr_successor *s;
+	mr_rows_from vertices, corners, faces;
+} making;
+
+static mr_status
+make(void *arg, mr_ctx *ctx, mr_carried *c)
+{
+	making *m = arg;
+
+	if (c->shape.element == 'v') {
+		m->vertices = m->vertices.n ? m->vertices : find_vertices(ctx, m->s);
+		mr_carried_make(ctx, c, 1, 0, m->vertices);
+	} else if (is_of_corners(c)) {
+		if (!m->corners.n)
+			MR_TRY(find_corners(ctx, m->s, &m->corners));
+		mr_carried_make(ctx, c, 3, 0, m->corners);
+	} else {
+		c->kind = MR_LABEL;
+		mr_carried_make(ctx, c, 1, 0, m->faces);
+	}
+	return MR_OK;
 }
 
 mr_status
 mr_carry_columns(mr_ctx *ctx, mr_frame *f, const mr_successor *s, mr_carried **list, size_t *count)
 {
-	mr_carried *c = MR_NEW(ctx, f->count, mr_carried);
-	mr_rows_from vertices = { 0 }, corners = { 0 }, faces = { s->after->nf, 1, s->face, NULL };
-	size_t n = 0;
+	const mr_mesh *m = s->before, *n = s->after;
+	making made = { .s = s, .faces = { n->nf, 1, s->face, NULL } };
 
-	for (size_t i = 0; i < f->count; i++) {
-		char element = f->columns[i].shape.element;
-		if (!goes_along(&f->columns[i], s->before->name))
-			continue;
-		MR_TRY(mr_carried_begin(ctx, f, i, element == 'v' ? s->before->nv : s->before->nf,
-		    element == 'v' ? s->after->nv : s->after->nf, &c[n]));
-		if (element == 'v') {
-			vertices = vertices.n ? vertices : find_vertices(ctx, s);
-			mr_carried_make(ctx, &c[n], 1, 0, vertices);
-		} else if (is_of_corners(&f->columns[i])) {
-			if (!corners.n)
-				MR_TRY(find_corners(ctx, s, &corners));
-			mr_carried_make(ctx, &c[n], 3, 0, corners);
-		} else if (element == 'f') {
-			c[n].kind = MR_LABEL;
-			mr_carried_make(ctx, &c[n], 1, 0, faces);
-		}
-		n++;
-	}
-	*list = c;
-	*count = n;
-	return MR_OK;
+	return mr_columns_descend(
+	    ctx, f, m->name, &(mr_descent){ m->nv, m->nf, n->nv, n->nf, BUT, make, &made }, list, count);
 }

@@ -99,31 +99,27 @@ by_loop(mr_ctx *ctx, const mr_refined *r, mr_carried *c)
 		((uint8_t *)c->to)[i] = (uint8_t)(y[i] + 0.5);
 }
 
-/* Those by convention that go along, and all that are none by convention. */
-static bool
-goes_along(const mr_column *c, const char *layer, const mr_refined *r)
-{
-	const mr_column_info *info = mr_column_of(layer, c->name);
-
-	if (strcmp(c->layer, layer))
-		return false;
-	if (!strcmp(c->name, "polygon"))
-		return !r->level || r->n == 0;
-	return info ? info->kind >= MR_MEAN : c->shape.element != '-';
-}
+typedef struct making {
+	const mr_refined *r;
+	mr_rows_from vertices;
+} making;
 
 static mr_status
-make(mr_ctx *ctx, const mr_refined *r, const mr_rows_from *vertices, mr_carried *c)
+make(void *arg, mr_ctx *ctx, mr_carried *c)
 {
+	making *m = arg;
+	const mr_refined *r = m->r;
+
 	if (c->shape.element == 'f')
 		return c->kind != MR_LABEL && !strncmp(c->name, "corner_", 7) ? make_corners(ctx, r, c)
 		                                                              : make_faces(ctx, r, c);
-	if (c->shape.element == 'v' && c->kind == MR_MEAN && r->level) {
+	if (c->kind == MR_MEAN && r->level) {
 		by_loop(ctx, r, c);
 		return MR_OK;
 	}
-	if (c->shape.element == 'v')
-		mr_carried_make(ctx, c, 1, 0, *vertices);
+	if (!m->vertices.n)
+		find_vertices(ctx, r, &m->vertices);
+	mr_carried_make(ctx, c, 1, 0, m->vertices);
 	return MR_OK;
 }
 
@@ -131,23 +127,12 @@ mr_status
 mr_refine_columns(
     mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, mr_carried **out, size_t *count)
 {
-	mr_carried *list = MR_NEW(ctx, f->count, mr_carried);
-	mr_rows_from vertices = { 0 };
-	size_t n = 0;
+	static const char *const polygon[] = { "polygon", NULL };
+	making m = { .r = r };
+	mr_descent d = { r->m.nv, r->m.nf, r->fine.nv, r->fine.nf, r->level && r->n > 0 ? polygon : NULL,
+		make, &m };
 
-	for (size_t i = 0; i < f->count; i++) {
-		bool of_vertices = f->columns[i].shape.element == 'v';
-		if (!goes_along(&f->columns[i], layer, r))
-			continue;
-		if (of_vertices && !vertices.n)
-			find_vertices(ctx, r, &vertices);
-		MR_TRY(mr_carried_begin(ctx, f, i, of_vertices ? r->m.nv : r->m.nf,
-		    of_vertices ? r->fine.nv : r->fine.nf, &list[n]));
-		MR_TRY(make(ctx, r, &vertices, &list[n++]));
-	}
-	*out = list;
-	*count = n;
-	return MR_OK;
+	return mr_columns_descend(ctx, f, layer, &d, out, count);
 }
 
 void

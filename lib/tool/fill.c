@@ -166,13 +166,13 @@ make_nearest(const filled *w, const mr_carried *c, bool of_vertices)
 }
 
 static mr_status
-make(filled *w, const mr_carried *c)
+make(void *arg, mr_ctx *ctx, mr_carried *c)
 {
+	filled *w = arg;
 	bool of_vertices = c->shape.element == 'v';
 	size_t before = of_vertices ? w->m->nv : w->m->nf;
 
-	if (c->shape.element == '-')
-		return MR_OK;
+	(void)ctx;
 	memcpy(c->to, c->from, before * c->shape.components * mr_type_size(c->shape.type));
 	make_nearest(w, c, of_vertices);
 	if (!strcmp(c->name, "polygon"))
@@ -193,23 +193,13 @@ make(filled *w, const mr_carried *c)
 static mr_status
 put(filled *w, mr_frame *f, const char *layer)
 {
-	mr_carried *carried = MR_NEW(w->ctx, f->count, mr_carried);
-	size_t n = 0;
+	mr_descent d = { w->m->nv, w->m->nf, w->s.all.nv, w->s.all.nf, NULL, make, w };
+	mr_carried *carried;
+	size_t n;
 
-	for (size_t i = 0; i < f->count; i++) {
-		const mr_column *c = &f->columns[i];
-		const mr_column_info *info = mr_column_of(layer, c->name);
-		bool of_vertices = c->shape.element == 'v';
-		if (strcmp(c->layer, layer) || (info ? info->kind < MR_MEAN : c->shape.element == '-'))
-			continue;
-		MR_TRY(mr_carried_begin(w->ctx, f, i, of_vertices ? w->m->nv : w->m->nf,
-		    of_vertices ? w->s.all.nv : w->s.all.nf, &carried[n]));
-		MR_TRY(make(w, &carried[n++]));
-	}
+	MR_TRY(mr_columns_descend(w->ctx, f, layer, &d, &carried, &n));
 	MR_TRY(mr_layer_put_mesh(w->ctx, f, layer, &w->s.all));
-	for (size_t i = 0; i < n; i++)
-		MR_TRY(mr_carried_put(w->ctx, f, layer, &carried[i]));
-	return MR_OK;
+	return mr_carried_put(w->ctx, f, layer, carried, n);
 }
 
 static mr_status

@@ -68,9 +68,7 @@ put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points,
 	if (count == 0)
 		return MR_OK;
 	MR_TRY(mr_sample_columns(ctx, d, height, points->p, s, carried, count));
-	for (size_t i = 0; i < count; i++)
-		MR_TRY(mr_carried_put(ctx, f, "displacement", &carried[i]));
-	return MR_OK;
+	return mr_carried_put(ctx, f, "displacement", carried, count);
 }
 
 static mr_status

@@ -116,8 +116,8 @@ replace(mr_ctx *ctx, mr_frame *f, const uint32_t *onto, mr_successor s)
 	if (is_base)
 		MR_TRY(mr_source_map_follow(ctx, f, m, &s.place, out->nv, &source, &mapped));
 	MR_TRY(mr_layer_replace(ctx, f, m->name, out));
-	for (size_t i = 0; i < n; i++)
-		MR_TRY(mr_carried_put(ctx, f, m->name, &carried[i]));
+	if (n > 0)
+		MR_TRY(mr_carried_put(ctx, f, m->name, carried, n));
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 

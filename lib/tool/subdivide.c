@@ -63,8 +63,7 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 		mr_layer_changed(f, "mesh", MR_RECONNECTED);
 	}
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
-	for (size_t i = 0; i < n; i++)
-		MR_TRY(mr_carried_put(ctx, f, "mesh", &carried[i]));
+	MR_TRY(mr_carried_put(ctx, f, "mesh", carried, n));
 	return limit ? mr_layer_put(ctx, f, "mesh", "normal", limit, r->fine.nv) : MR_OK;
 }
 
