@@ -170,7 +170,7 @@ span_loops(filler *w)
 	}
 	m = (mr_mesh){ w->m->name, p, t, w->rim, nf };
 	MR_TRY(mr_topology_build(w->ctx, &m, &topo));
-	MR_TRY(mr_dyn_build(w->ctx, &m, &topo, 180, &w->d));
+	MR_TRY(mr_dyn_build(w->ctx, &m, &topo, NULL, 180, &w->d));
 	memset(w->d.kind, MR_CORNER, w->rim); /* the rims stay */
 	for (uint32_t h = 0; h < 3 * nf; h++)
 		if (w->d.twin[h] == MR_NONE) { /* no edges between the ends of a long one can be short */

@@ -40,7 +40,7 @@ remesh_stage(mr_ctx *ctx, const stage *fine, stage *coarse, mr_places *map)
 	o.length = 2 * mr_mesh_edge_scale(ctx, &fine->m);
 	o.rounds = 3;
 	o.area_passes = 0;
-	MR_TRY(mr_remesh(ctx, &fine->m, &o, &coarse->m, map, NULL));
+	MR_TRY(mr_remesh(ctx, &fine->m, &o, NULL, &coarse->m, map, NULL));
 	number_coarse(ctx, fine, map, coarse);
 	return MR_OK;
 }

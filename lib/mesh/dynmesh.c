@@ -278,13 +278,12 @@ close_face(mr_dyn *d, uint32_t h)
 {
 	uint32_t n = mr_he_next(h), p = mr_he_prev(h), f = h / 3, c = d->v[p];
 	uint32_t cb = d->twin[n], ac = d->twin[p];
-	uint32_t curve = mr_dyn_on_curve(d, n) ? mr_dyn_curve(d, n) : mr_dyn_curve(d, p);
 
 	link_twins(d, cb, ac);
-	if (cb != MR_NONE && curve != MR_NONE)
-		set_curve(d, cb, curve);
-	if (ac != MR_NONE && curve != MR_NONE)
-		set_curve(d, ac, curve);
+	if (cb != MR_NONE && mr_dyn_on_curve(d, p))
+		set_curve(d, cb, mr_dyn_curve(d, p));
+	if (ac != MR_NONE && mr_dyn_on_curve(d, n))
+		set_curve(d, ac, mr_dyn_curve(d, n));
 	if (d->out[c] == p)
 		d->out[c] = cb;
 	remove_face(d, f);

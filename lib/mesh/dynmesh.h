@@ -132,10 +132,11 @@ mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
 
 /*
  * Copies m, whose half-edges are topo, into the arena.  Edges whose faces meet at more than
- * `feature` degrees are curves, and so is the boundary.  A curve vertex is a corner
- * where other than two curve edges meet or the curve turns by more than 50 degrees.
+ * `feature` degrees are curves, and so are the boundary and what `seam` marks (3 nf; NULL: nothing).  A curve
+ * vertex is a corner where other than two curve edges meet or the curve turns by more than 50 degrees.
  */
-mr_status mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *d);
+mr_status mr_dyn_build(
+    mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam, double feature, mr_dyn *d);
 
 /* Number of edges at v, of which at most so many are looked for. */
 unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v, unsigned most);

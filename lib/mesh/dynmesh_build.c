@@ -8,16 +8,17 @@ direction(const mr_dyn *d, uint32_t a, uint32_t b)
 	return mr_unit(mr_sub(d->p[b], d->p[a]));
 }
 
-/* Boundaries, and edges sharper than `feature` degrees. */
+/* Boundaries, seams, and edges sharper than `feature` degrees. */
 static void
-mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
+mark_curves(mr_ctx *ctx, mr_dyn *d, const uint8_t *seam, double feature)
 {
 	double cosine = cos(feature * MR_PI / 180);
 
 	for (uint32_t h = 0; h < 3 * d->nf; h++) {
 		uint32_t g = d->twin[h];
-		if (g != MR_NONE && !(feature < 180 && mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)),
-							   mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine))
+		if (g != MR_NONE && !(seam && seam[h]) &&
+		    !(feature < 180 && mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)),
+					   mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine))
 			continue;
 		if (!d->curve) {
 			d->curve = MR_NEW(ctx, 3 * d->room_f, uint32_t);
@@ -97,7 +98,8 @@ ample(size_t n)
 }
 
 mr_status
-mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *out)
+mr_dyn_build(
+    mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam, double feature, mr_dyn *out)
 {
 	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
 
@@ -109,7 +111,7 @@ mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feat
 	memcpy(d.out, topo->out, m->nv * sizeof *d.out);
 	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
 	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
-	mark_curves(ctx, &d, feature);
+	mark_curves(ctx, &d, seam, feature);
 	memset(d.kind, MR_SMOOTH, m->nv);
 	for (uint32_t v = 0; v < m->nv; v++) {
 		if (d.out[v] == MR_NONE) {

@@ -233,7 +233,7 @@ misses(double excess)
 }
 
 static mr_status
-set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
+set_up(remesher *r, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam)
 {
 	double adaptive = r->o->adaptive * (r->o->adaptive_relative ? mr_mesh_diagonal(m) : 1),
 	       uniform = r->o->length * (r->o->length_relative ? mr_mesh_diagonal(m) : 1);
@@ -242,7 +242,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		uniform = r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 	if (!(mr_mesh_area(r->ctx, m) > 0))
 		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
-	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
+	MR_TRY(mr_dyn_build(r->ctx, m, topo, seam, r->o->feature, &r->d));
 	if (r->d.curve) {
 		r->curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
 		memcpy(r->curve, r->d.curve, 3 * m->nf * sizeof *r->curve);
@@ -251,7 +251,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		r->length = MR_NEW(r->ctx, m->nv, double);
 		mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
 		    uniform * ADAPTIVE_RANGE, r->length);
-	} else {
+	} else if (r->o->feature < 180) {
 		mr_sizing_curves(r->ctx, m, topo, &r->d, uniform, &r->length);
 	}
 	r->mean = r->length ? MR_NEW(r->ctx, m->nf, double) : NULL;
@@ -375,6 +375,18 @@ map_to_source(remesher *r, mr_places *map)
 	*map = (mr_places){ face, bary };
 }
 
+static void
+find_kept(const remesher *r, mr_kept *kept)
+{
+	uint32_t *along = MR_NEW(r->ctx, 3 * r->d.nf, uint32_t);
+
+	for (uint32_t h = 0; h < 3 * r->d.nf; h++) {
+		uint32_t c = mr_dyn_curve(&r->d, h);
+		along[h] = c != MR_NONE && kept->seam[c] ? c : MR_NONE;
+	}
+	kept->along = along;
+}
+
 static mr_remesh_result
 report(const remesher *r)
 {
@@ -391,14 +403,14 @@ report(const remesher *r)
 }
 
 mr_status
-mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
-    mr_remesh_result *result)
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_kept *kept, mr_mesh *out,
+    mr_places *map, mr_remesh_result *result)
 {
 	remesher r = { .ctx = ctx, .o = o };
 	mr_topology topo;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
-	MR_TRY(set_up(&r, m, &topo));
+	MR_TRY(set_up(&r, m, &topo, kept ? kept->seam : NULL));
 	MR_TRY(run(&r));
 	r.flaws = mr_flaws_count(&r.d, &r.source);
 	if (r.flaws.flipped + r.flaws.folded > 0 && o->rounds > 0) {
@@ -407,6 +419,8 @@ mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, 
 	}
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
 	map_to_source(&r, map);
+	if (kept && kept->seam)
+		find_kept(&r, kept);
 	if (misses(excess(&r)))
 		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
 				  .layer = "base",

@@ -6,12 +6,19 @@
 
 #include "space/source_map.h"
 
+/* Edges that are kept as curves.  Of half-edges of what is remeshed, marks; of those of the result, in the
+ * arena, the one on whose curve each is, MR_NONE of most. */
+typedef struct mr_kept {
+	uint8_t *seam;
+	const uint32_t *along;
+} mr_kept;
+
 /*
  * Remeshes an oriented manifold m, boundary allowed; isolated vertices are left out.  MR_EMESH where
- * it is not manifold.  map: where its vertices lie on m.  out, map: in the
- * arena.  result: or NULL, which saves figures that take time.
+ * it is not manifold.  kept: or NULL.  map: where its vertices lie on m.  out, map: in the arena.  result:
+ * or NULL, which saves figures that take time.
  */
-mr_status mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
-    mr_remesh_result *result);
+mr_status mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_kept *kept, mr_mesh *out,
+    mr_places *map, mr_remesh_result *result);
 
 #endif

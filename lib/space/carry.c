@@ -3,6 +3,8 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "mesh/mend.h"
+#include "mesh/repair.h"
 #include "space/surface_walk.h"
 
 /* Texture coordinates that differ by less are the same: pictures have up to 16,384 texels a side. */
@@ -82,11 +84,37 @@ mr_layer_seams(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *to
 	return MR_OK;
 }
 
-/* ---- corners ---- */
+mr_status
+mr_layer_join_seams(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
+{
+	uint32_t *map = MR_NEW(ctx, m->nv, uint32_t);
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	const double eps = 1e-8 * mr_mesh_diagonal(m); /* that sines of pi and the like are off */
+	mr_topology topo;
+	size_t n = 0, rim = 0;
+
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	for (size_t h = 0; h < 3 * m->nf; h++)
+		rim += topo.twin[h] == MR_NONE;
+	if (!rim)
+		return MR_OK;
+	mr_weld(ctx, m->p, m->nv, eps, map, &n);
+	for (size_t h = 0; h < 3 * m->nf; h++)
+		t[h / 3].v[h % 3] = map[m->t[h / 3].v[h % 3]];
+	if (n == m->nv || mr_topology_build(ctx, &(mr_mesh){ m->name, m->p, t, n, m->nf }, &topo) != MR_OK)
+		return MR_OK;
+	MR_TRY(mr_layer_weld(ctx, f, m->name, eps, &n));
+	return mr_layer_mesh(ctx, f, m->name, m);
+}
+
+/* ---- faces and corners ---- */
 
 typedef struct corner_job {
 	const mr_successor *s;
-	mr_mesh cut; /* before, its vertices apart along the seams */
+	uint32_t *face;        /* of before, of each of after: on the same side of all seams */
+	const uint32_t *sides; /* of each vertex of after: how many sides of seams meet there */
+	const bool *off;       /* whether no seam does */
+	mr_mesh cut, sides_of; /* before and after, their vertices apart along the seams */
 	mr_topology topo;
 	mr_closest *at; /* of each corner of after, on its own face's side */
 } corner_job;
@@ -98,7 +126,61 @@ place_corners(void *arg, size_t begin, size_t end)
 	const mr_mesh *m = j->s->after;
 
 	for (size_t c = begin; c < end; c++)
-		j->at[c] = mr_project_walk(&j->cut, &j->topo, j->s->face[c / 3], m->p[m->t[c / 3].v[c % 3]]);
+		j->at[c] = mr_project_walk(&j->cut, &j->topo, j->face[c / 3], m->p[m->t[c / 3].v[c % 3]]);
+}
+
+static void
+place_faces(void *arg, size_t begin, size_t end)
+{
+	const corner_job *j = arg;
+	mr_v3 p[3];
+
+	for (size_t f = begin; f < end; f++) {
+		mr_corners(j->s->after, f, p);
+		j->face[f] = mr_project_walk(
+		    &j->cut, &j->topo, j->face[f], mr_mul(1.0 / 3, mr_add(p[0], mr_add(p[1], p[2]))))
+		                 .at.face;
+	}
+}
+
+/* A face of before on the side of face f: of a corner off the seams, of a seam, or that of a neighbour;
+ * MR_NONE where it has none yet. */
+static uint32_t
+side_of(const corner_job *j, const mr_topology *after, uint32_t f)
+{
+	const mr_successor *s = j->s;
+	uint32_t found = MR_NONE;
+
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
+		uint32_t v = mr_he_from(s->after, h), g = after->twin[h];
+		if (j->off[v])
+			return s->place.face[v];
+		if (s->along && s->along[h] != MR_NONE)
+			found = s->along[h] / 3;
+		else if (found == MR_NONE && g != MR_NONE)
+			found = j->face[g / 3];
+	}
+	return found;
+}
+
+static void
+find_faces(mr_ctx *ctx, corner_job *j, const mr_topology *after)
+{
+	size_t n = j->s->after->nf, left = n;
+
+	memset(j->face, 0xff, n * sizeof *j->face);
+	for (size_t before = 0; left != before;) {
+		before = left;
+		left = 0;
+		for (uint32_t f = 0; f < n; f++) {
+			j->face[f] = j->face[f] == MR_NONE ? side_of(j, after, f) : j->face[f];
+			left += j->face[f] == MR_NONE;
+		}
+	}
+	for (uint32_t f = 0; f < n; f++)
+		if (j->face[f] == MR_NONE)
+			j->face[f] = j->s->place.face[j->s->after->t[f].v[0]];
+	mr_parallel(ctx, n, 1024, place_faces, j);
 }
 
 /* The mesh with a vertex for each side of the seams there. */
@@ -132,46 +214,75 @@ cut_seams(mr_ctx *ctx, const mr_mesh *m, const uint8_t *seam, mr_mesh *cut, mr_t
 /* The place of corner c: its own, which is on its side; but a walk may end before the nearest place, and then
  * that of another corner of the side, or of the vertex where no seam is. */
 static mr_place
-choose(const corner_job *j, uint32_t c, uint32_t best, bool on_seam)
+choose(const corner_job *j, uint32_t c, uint32_t best)
 {
 	uint32_t v = mr_he_from(j->s->after, c);
 	mr_place at = mr_places_at(&j->s->place, v);
-	double far = mr_dist(mr_place_point(j->s->before, at), j->s->after->p[v]), little = 1.001;
+	const double little = 1.001, rounding = 1e-9;
+	double far = mr_dist(mr_place_point(j->s->before, at), j->s->after->p[v]);
+	double none = rounding * mr_dist(j->s->after->p[v], j->s->after->p[mr_he_to(j->s->after, c)]);
 
-	if (on_seam || sqrt(j->at[best].dist2) <= little * far)
+	if (j->sides[v] > 1 || sqrt(j->at[best].dist2) <= little * far) {
 		at = j->at[best].at;
-	return sqrt(j->at[c].dist2) <= little * (on_seam ? sqrt(j->at[best].dist2) : far) ? j->at[c].at : at;
+		far = sqrt(j->at[best].dist2);
+	}
+	return sqrt(j->at[c].dist2) <= little * far + none ? j->at[c].at : at;
+}
+
+/* Cuts both along the seams, and finds the faces. */
+static mr_status
+set_up(mr_ctx *ctx, corner_job *j)
+{
+	const mr_successor *s = j->s;
+	mr_topology after;
+	uint32_t *sides = MR_NEW_ZERO(ctx, s->after->nv, uint32_t);
+	bool *met, *off = MR_NEW(ctx, s->after->nv, bool);
+
+	MR_TRY(cut_seams(ctx, s->before, s->seam, &j->cut, &j->topo));
+	MR_TRY(cut_seams(ctx, s->after, s->seam_after, &j->sides_of, &after));
+	met = MR_NEW_ZERO(ctx, j->sides_of.nv, bool);
+	for (uint32_t c = 0; c < 3 * s->after->nf; c++) {
+		bool *m = &met[mr_he_from(&j->sides_of, c)];
+		sides[mr_he_from(s->after, c)] += !*m;
+		*m = true;
+	}
+	memset(off, true, s->after->nv * sizeof *off);
+	for (uint32_t h = 0; s->seam_after && h < 3 * s->after->nf; h++)
+		if (s->seam_after[h])
+			off[mr_he_from(s->after, h)] = off[mr_he_to(s->after, h)] = false;
+	j->sides = sides;
+	j->off = off;
+	j->face = MR_NEW(ctx, s->after->nf, uint32_t);
+	if (s->face)
+		memcpy(j->face, s->face, s->after->nf * sizeof *j->face);
+	else
+		find_faces(ctx, j, &after);
+	return MR_OK;
 }
 
 /* Where the corners of `after` are. */
-static mr_status
-find_corners(mr_ctx *ctx, const mr_successor *s, mr_rows_from *rows)
+static mr_rows_from
+find_corners(mr_ctx *ctx, corner_job *j)
 {
+	const mr_successor *s = j->s;
 	size_t n = 3 * s->after->nf;
 	uint32_t *parent = MR_NEW(ctx, 3 * n, uint32_t), *best = MR_NEW(ctx, n, uint32_t);
-	uint32_t *sides = MR_NEW_ZERO(ctx, s->after->nv, uint32_t);
 	double *weight = MR_NEW(ctx, 3 * n, double);
-	corner_job j = { .s = s, .at = mr_alloc(ctx, n, sizeof *j.at) };
-	mr_topology topo;
-	mr_mesh cut;
 
-	MR_TRY(cut_seams(ctx, s->before, s->seam, &j.cut, &j.topo));
-	MR_TRY(cut_seams(ctx, s->after, s->seam_after, &cut, &topo));
-	mr_parallel(ctx, n, 1024, place_corners, &j);
+	j->at = mr_alloc(ctx, n, sizeof *j->at);
+	mr_parallel(ctx, n, 1024, place_corners, j);
 	memset(best, 0xff, n * sizeof *best);
 	for (uint32_t c = 0; c < n; c++) {
-		uint32_t *b = &best[cut.t[c / 3].v[c % 3]];
-		sides[mr_he_from(s->after, c)] += *b == MR_NONE;
-		*b = *b == MR_NONE || j.at[c].dist2 < j.at[*b].dist2 ? c : *b;
+		uint32_t *b = &best[mr_he_from(&j->sides_of, c)];
+		*b = *b == MR_NONE || j->at[c].dist2 < j->at[*b].dist2 ? c : *b;
 	}
 	for (uint32_t c = 0; c < n; c++) {
-		mr_place at = choose(&j, c, best[cut.t[c / 3].v[c % 3]], sides[mr_he_from(s->after, c)] > 1);
+		mr_place at = choose(j, c, best[mr_he_from(&j->sides_of, c)]);
 		for (uint32_t k = 0; k < 3; k++)
 			parent[3 * c + k] = 3 * at.face + k;
 		memcpy(weight + 3 * c, &at.bary, sizeof at.bary);
 	}
-	*rows = (mr_rows_from){ n, 3, parent, weight };
-	return MR_OK;
+	return (mr_rows_from){ n, 3, parent, weight };
 }
 
 /* ---- columns ---- */
@@ -197,25 +308,29 @@ mr_layer_carries(const mr_frame *f, const char *layer)
 }
 
 typedef struct making {
-	const mr_successor *s;
-	mr_rows_from vertices, corners, faces;
+	corner_job j;
+	mr_rows_from vertices, corners;
 } making;
 
 static mr_status
 make(void *arg, mr_ctx *ctx, mr_carried *c)
 {
 	making *m = arg;
+	const mr_mesh *after = m->j.s->after;
 
 	if (c->shape.element == 'v') {
-		m->vertices = m->vertices.n ? m->vertices : find_vertices(ctx, m->s);
+		m->vertices = m->vertices.n ? m->vertices : find_vertices(ctx, m->j.s);
 		mr_carried_make(ctx, c, 1, 0, m->vertices);
-	} else if (is_of_corners(c)) {
-		if (!m->corners.n)
-			MR_TRY(find_corners(ctx, m->s, &m->corners));
+		return MR_OK;
+	}
+	if (!m->j.face)
+		MR_TRY(set_up(ctx, &m->j));
+	if (is_of_corners(c)) {
+		m->corners = m->corners.n ? m->corners : find_corners(ctx, &m->j);
 		mr_carried_make(ctx, c, 3, 0, m->corners);
 	} else {
 		c->kind = MR_LABEL;
-		mr_carried_make(ctx, c, 1, 0, m->faces);
+		mr_carried_make(ctx, c, 1, 0, (mr_rows_from){ after->nf, 1, m->j.face, NULL });
 	}
 	return MR_OK;
 }
@@ -224,7 +339,7 @@ mr_status
 mr_carry_columns(mr_ctx *ctx, mr_frame *f, const mr_successor *s, mr_carried **list, size_t *count)
 {
 	const mr_mesh *m = s->before, *n = s->after;
-	making made = { .s = s, .faces = { n->nf, 1, s->face, NULL } };
+	making made = { .j.s = s };
 
 	return mr_columns_descend(
 	    ctx, f, m->name, &(mr_descent){ m->nv, m->nf, n->nv, n->nf, BUT, make, &made }, list, count);

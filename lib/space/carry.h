@@ -11,8 +11,11 @@
 typedef struct mr_successor {
 	const mr_mesh *before, *after;
 	const uint8_t *seam, *seam_after; /* of each half-edge: see mr_layer_seams; NULL: none is one */
-	const uint32_t *face; /* of each face of after: one of before that is on the same side of all seams */
-	mr_places place;      /* of each vertex of after on before */
+	const uint32_t
+	    *face; /* of each face of after: one of before that is on the same side of all seams; NULL: */
+	const uint32_t
+	    *along;      /* of each half-edge of after on a seam, one of before on the same side of it */
+	mr_places place; /* of each vertex of after on before */
 } mr_successor;
 
 /*
@@ -22,6 +25,10 @@ typedef struct mr_successor {
  */
 mr_status mr_layer_seams(
     mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, uint8_t **seam) MR_WARN_UNUSED;
+
+/* Joins vertices of layer m at the same place, as files have them along seams, where that leaves a manifold:
+ * edges there would part otherwise. */
+mr_status mr_layer_join_seams(mr_ctx *ctx, mr_frame *f, mr_mesh *m) MR_WARN_UNUSED;
 
 /* Whether the layer has columns that go along. */
 bool mr_layer_carries(const mr_frame *f, const char *layer);

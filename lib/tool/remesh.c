@@ -4,6 +4,7 @@
 #include "remesh/remesh.h"
 
 #include "base/options.h"
+#include "space/carry.h"
 
 static mr_status
 check_options(mr_ctx *ctx, const mr_remesh_opts *o)
@@ -15,21 +16,49 @@ check_options(mr_ctx *ctx, const mr_remesh_opts *o)
 	return mr_check_number(ctx, "adaptive", o->adaptive, 0, 1e300);
 }
 
+/* The columns of m for what it became. */
+static mr_status
+carry(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const mr_places *over,
+    const mr_kept *kept, mr_carried **carried, size_t *n)
+{
+	uint8_t *seam = MR_NEW(ctx, 3 * out->nf, uint8_t);
+
+	for (size_t h = 0; h < 3 * out->nf; h++)
+		seam[h] = kept->along && kept->along[h] != MR_NONE;
+	return mr_carry_columns(
+	    ctx, f, &(mr_successor){ m, out, kept->seam, seam, NULL, kept->along, *over }, carried, n);
+}
+
 static mr_status
 remesh(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *o, mr_remesh_result *r)
 {
 	static const char *const reads[] = { "base", "mesh", NULL };
 	mr_places over, map;
 	const char *layer;
+	mr_kept kept = { 0 };
+	mr_topology topo;
+	mr_carried *carried;
 	mr_mesh m, out;
-	bool mapped;
+	size_t n = 0;
+	bool mapped, carries;
 
 	MR_TRY(check_options(ctx, o));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	MR_TRY(mr_remesh(ctx, &m, o, &out, &over, r));
+	if (!strcmp(layer, "mesh"))
+		MR_TRY(mr_layer_join_seams(ctx, f, &m));
+	carries = mr_layer_carries(f, layer);
+	if (carries)
+		MR_TRY(mr_topology_build(ctx, &m, &topo));
+	if (carries)
+		MR_TRY(mr_layer_seams(ctx, f, &m, &topo, &kept.seam));
+	MR_TRY(mr_remesh(ctx, &m, o, &kept, &out, &over, r));
+	if (carries)
+		MR_TRY(carry(ctx, f, &m, &out, &over, &kept, &carried, &n));
 	MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &map, &mapped));
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &out));
+	if (n > 0)
+		MR_TRY(mr_carried_put(ctx, f, "base", carried, n));
 	return mapped ? mr_source_map_put(ctx, f, &map, out.nv) : MR_OK;
 }
 

@@ -189,31 +189,6 @@ put_marks(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const uint8_t *mark, siz
 	return mark ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
 }
 
-/* Joins vertices of the mesh at the same place, as files have them along seams, where that leaves a manifold:
- * edges there would part otherwise. */
-static mr_status
-join_seams(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
-{
-	uint32_t *map = MR_NEW(ctx, m->nv, uint32_t);
-	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
-	const double eps = 1e-8 * mr_mesh_diagonal(m); /* that sines of pi and the like are off */
-	mr_topology topo;
-	size_t n = 0, rim = 0;
-
-	MR_TRY(mr_topology_build(ctx, m, &topo));
-	for (size_t h = 0; h < 3 * m->nf; h++)
-		rim += topo.twin[h] == MR_NONE;
-	if (!rim)
-		return MR_OK;
-	mr_weld(ctx, m->p, m->nv, eps, map, &n);
-	for (size_t h = 0; h < 3 * m->nf; h++)
-		t[h / 3].v[h % 3] = map[m->t[h / 3].v[h % 3]];
-	if (n == m->nv || mr_topology_build(ctx, &(mr_mesh){ m->name, m->p, t, n, m->nf }, &topo) != MR_OK)
-		return MR_OK;
-	MR_TRY(mr_layer_weld(ctx, f, m->name, eps, &n));
-	return mr_layer_mesh(ctx, f, m->name, m);
-}
-
 static mr_status
 simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 {
@@ -231,7 +206,7 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	MR_TRY(mr_layer_choose_warned(ctx, f, o.layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	if (!strcmp(layer, "mesh"))
-		MR_TRY(join_seams(ctx, f, &m));
+		MR_TRY(mr_layer_join_seams(ctx, f, &m));
 	if (o.to && !strcmp(o.to, layer))
 		return mr_fail(ctx, MR_EUSAGE, "--to: %s is the layer that is simplified", layer);
 	MR_TRY(read_points(ctx, f, o.to ? o.to : layer, &points));
@@ -257,8 +232,8 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 		MR_TRY(mr_sample_report_move(ctx, f, "points"));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out)
 		    : replace(ctx, f, onto,
-			  (mr_successor){
-			      &m, &out, seam, seam ? marks : NULL, o.face ? face : NULL, { NULL, NULL } }));
+			  (mr_successor){ &m, &out, seam, seam ? marks : NULL, o.face ? face : NULL, NULL,
+			      { NULL, NULL } }));
 	if (o.sharp && !seam)
 		MR_TRY(put_marks(ctx, f, &out, marks, &r->creases));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);

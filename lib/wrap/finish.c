@@ -30,7 +30,7 @@ mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d)
 	mr_topology topo;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
-	return mr_dyn_build(ctx, m, &topo, 180, d);
+	return mr_dyn_build(ctx, m, &topo, NULL, 180, d);
 }
 
 mr_status
@@ -43,7 +43,7 @@ mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
 	o.length = length;
 	o.rounds = 1;
 	o.area_passes = 0;
-	MR_TRY(mr_remesh(ctx, m, &o, &out, &map, NULL));
+	MR_TRY(mr_remesh(ctx, m, &o, NULL, &out, &map, NULL));
 	return mr_wrap_dyn(ctx, &out, d);
 }
 

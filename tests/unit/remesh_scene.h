@@ -20,7 +20,7 @@ set_up(scene *x, mr_mesh m, double feature)
 {
 	x->m = m;
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
-	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, feature, &x->d), MR_OK);
+	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, NULL, feature, &x->d), MR_OK);
 	x->curve = MR_NEW(&ctx, 3 * m.nf, uint32_t);
 	for (uint32_t h = 0; h < 3 * m.nf; h++)
 		x->curve[h] = mr_dyn_curve(&x->d, h);

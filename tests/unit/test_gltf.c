@@ -277,8 +277,10 @@ refused(void **state)
 	refuses("\"scene\":0", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
 	    "the file needs the extension KHR_draco_mesh_compression, which is not read");
 	refuses("\"scene\":0", "\"scene\":1", "scene names number 1 of 1 scenes");
-	refuses("{\"mesh\":0,", "{\"children\":[0],\"mesh\":0,", "node 0 hangs from more than one, or from itself");
-	refuses("{\"mesh\":0,", "{\"children\":[7],\"mesh\":0,", "a scene or a node names none of the 1 nodes");
+	refuses("{\"mesh\":0,", "{\"children\":[0],\"mesh\":0,",
+	    "node 0 hangs from more than one, or from itself");
+	refuses(
+	    "{\"mesh\":0,", "{\"children\":[7],\"mesh\":0,", "a scene or a node names none of the 1 nodes");
 	refuses("{\"mesh\":0,", "{\"mesh\":3,", "node 0: mesh names number 3 of 1 meshes");
 	refuses("{\"mesh\":0,", "{\"scale\":[1,2],\"mesh\":0,", "node 0: scale has 2 numbers, not 3");
 	refuses("\"POSITION\":0", "\"POSITION\":9",

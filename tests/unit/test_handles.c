@@ -1,6 +1,6 @@
 /* Affine poses: their algebra, shares of the way, scripts. */
-#include "edit/handles.h"
 #include "base/rotation.h"
+#include "edit/handles.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -160,7 +160,8 @@ static void
 turns_are_counted(void **state)
 {
 	const uint32_t region[4] = { 2, 2, 2, 2 };
-	const mr_pose turn = pose_of(NULL, "0,0,2,150", "1,2,3", NULL), back = pose_of(NULL, "0,0,1,-600", "0.5", NULL),
+	const mr_pose turn = pose_of(NULL, "0,0,2,150", "1,2,3", NULL),
+		      back = pose_of(NULL, "0,0,1,-600", "0.5", NULL),
 		      over = pose_of(NULL, "1,0,0,90", NULL, NULL);
 	mr_handle_rows row = at_rest(1);
 	mr_mat3 r, sum, map;

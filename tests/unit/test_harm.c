@@ -70,7 +70,7 @@ test_near(void **state)
 	}
 	h = harm_of(&m, p);
 	assert_true(h.folds == 0 && h.pairs == 0 && h.far == 0); /* it rubs */
-	for (size_t v = 0; v < m.nv; v++) { /* the same, of a few rows */
+	for (size_t v = 0; v < m.nv; v++) {                      /* the same, of a few rows */
 		double a = 2 * MR_PI * m.p[v].y / 4, r = 4 / (2 * MR_PI);
 		p[v] = mr_vec(m.p[v].x, r * sin(a) + 0.1 * m.p[v].y, r * cos(a));
 	}

@@ -68,7 +68,7 @@ remeshed(const mr_mesh *m, const mr_remesh_opts *o, mr_places *map)
 {
 	mr_mesh out;
 
-	assert_int_equal(mr_remesh(&ctx, m, o, &out, map, NULL), MR_OK);
+	assert_int_equal(mr_remesh(&ctx, m, o, NULL, &out, map, NULL), MR_OK);
 	return out;
 }
 
@@ -199,7 +199,7 @@ random_operations_keep_a_manifold(void **state)
 		mr_topology topo;
 		mr_dyn d;
 		assert_int_equal(mr_topology_build(&ctx, &m, &topo), MR_OK);
-		assert_int_equal(mr_dyn_build(&ctx, &m, &topo, 180, &d), MR_OK);
+		assert_int_equal(mr_dyn_build(&ctx, &m, &topo, NULL, 180, &d), MR_OK);
 		operate(&d, 6000, &random);
 		assert_valid(&d);
 		long before = count(&m).euler;
@@ -220,7 +220,7 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	mr_places map;
 
 	(void)state;
-	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_EMESH);
+	assert_int_equal(mr_remesh(&ctx, &m, &o, NULL, &r, &map, NULL), MR_EMESH);
 	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces");
 }
 
@@ -259,7 +259,7 @@ curves_are_followed_around_small_roundings(void **state)
 		mr_places map;
 		o.length = length;
 		o.feature = 40;
-		assert_int_equal(mr_remesh(&ctx, &m, &o, &out, &map, NULL), MR_OK);
+		assert_int_equal(mr_remesh(&ctx, &m, &o, NULL, &out, &map, NULL), MR_OK);
 		assert_true((double)out.nf < 10 * mr_mesh_area(&ctx, &m) / (length * length));
 		mr_ctx_free(&ctx);
 	}
@@ -387,7 +387,7 @@ slivers_take_no_more_faces_than_their_area(void **state)
 		mr_places map;
 		double area = mr_mesh_area(&ctx, &m);
 		o.length = 0.02;
-		assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, &result), MR_OK);
+		assert_int_equal(mr_remesh(&ctx, &m, &o, NULL, &r, &map, &result), MR_OK);
 		assert_true((double)result.splits < 10 * area / (sqrt(3) / 4 * o.length * o.length));
 		assert_true(fabs(mr_mesh_area(&ctx, &r) / area - 1) < 0.03);
 		assert_int_equal(result.flipped + result.folded, 0);
@@ -410,12 +410,12 @@ what_would_take_too_much_is_refused_with_the_length_to_take(void **state)
 		mr_mesh r;
 		const char *take;
 		o.length = i * 1e-9;
-		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, &r, &map, NULL), MR_ERANGE);
+		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, NULL, &r, &map, NULL), MR_ERANGE);
 		take = strstr(ctx.error, "take a length of ");
 		assert_non_null(take);
 		o.length = strtod(take + strlen("take a length of "), NULL) *
 		           (i == 0 ? 1 : 500); /* in no time */
-		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, &r, &map, NULL), MR_OK);
+		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, NULL, &r, &map, NULL), MR_OK);
 	}
 }
 
@@ -429,14 +429,14 @@ size_makes_no_difference(void **state)
 	mr_places map;
 
 	(void)state;
-	assert_int_equal(mr_remesh(&ctx, &m, &o, &at_one, &map, NULL), MR_OK);
+	assert_int_equal(mr_remesh(&ctx, &m, &o, NULL, &at_one, &map, NULL), MR_OK);
 	for (int exponent = -96; exponent <= 96; exponent += 192) {
 		mr_mesh far = m;
 		for (size_t v = 0; v < m.nv; v++)
 			p[v] = mr_vec(
 			    ldexp(m.p[v].x, exponent), ldexp(m.p[v].y, exponent), ldexp(m.p[v].z, exponent));
 		far.p = p;
-		assert_int_equal(mr_remesh(&ctx, &far, &o, &r, &map, NULL), MR_OK);
+		assert_int_equal(mr_remesh(&ctx, &far, &o, NULL, &r, &map, NULL), MR_OK);
 		assert_int_equal(r.nv, at_one.nv);
 		assert_memory_equal(r.t, at_one.t, r.nf * sizeof *r.t);
 		for (size_t v = 0; v < r.nv; v++)
@@ -456,7 +456,7 @@ a_pillow_stays(void **state)
 
 	(void)state;
 	for (int i = 0; i < 2; i++) {
-		assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_OK);
+		assert_int_equal(mr_remesh(&ctx, &m, &o, NULL, &r, &map, NULL), MR_OK);
 		assert_int_equal(r.nf, 2);
 		o.length = 0.1;
 	}
@@ -476,7 +476,7 @@ a_long_spike_ends(void **state)
 	memcpy(p, m.p, m.nv * sizeof *p);
 	p[5].y = 1000;
 	m.p = p;
-	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_OK);
+	assert_int_equal(mr_remesh(&ctx, &m, &o, NULL, &r, &map, NULL), MR_OK);
 	assert_true(r.nf < 40000);
 }
 
@@ -494,7 +494,7 @@ what_cannot_be_halved_stays(void **state)
 		p[v] = mr_add(m.p[v], mr_vec(1e15, 1e15, 1e15));
 	m.p = p;
 	o.length = 0.05;
-	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_OK);
+	assert_int_equal(mr_remesh(&ctx, &m, &o, NULL, &r, &map, NULL), MR_OK);
 	assert_int_equal(count(&r).euler, 2);
 }
 

@@ -230,7 +230,8 @@ a_rule_must_select_something(void **state)
 	mr_ctx_init(&ctx, 1);
 	mr_mesh m = solid(&ctx, MR_PLANE, 121);
 	assert_int_equal(apply(&ctx, &m, 1, "sphere:9,9,9,1", region), MR_EMESH);
-	assert_string_equal(ctx.error, "--free sphere:9,9,9,1 selects no vertex of plane, whose box is -1 -1 0 to 1 1 0");
+	assert_string_equal(
+	    ctx.error, "--free sphere:9,9,9,1 selects no vertex of plane, whose box is -1 -1 0 to 1 1 0");
 	assert_int_equal(apply(&ctx, &m, 1, "rings:121,1", region), MR_ERANGE);
 	assert_int_equal(apply(&ctx, &m, 1, "group:x", region), MR_EMISSING);
 	assert_true(region[0] == 3 && region[1] == 4);

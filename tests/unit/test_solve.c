@@ -1,7 +1,7 @@
 /* The solvers: right solutions, and sentences for matrices that have none. */
 #include "base/random.h"
-#include "solve/solver_type.h"
 #include "solve/preconditioner.h"
+#include "solve/solver_type.h"
 #include "unit.h"
 
 #include <dlfcn.h>

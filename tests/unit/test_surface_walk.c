@@ -134,7 +134,7 @@ with_curves(const mr_mesh *m, const mr_topology *topo, double feature)
 {
 	mr_dyn d;
 
-	assert_int_equal(mr_dyn_build(&ctx, m, topo, feature, &d), MR_OK);
+	assert_int_equal(mr_dyn_build(&ctx, m, topo, NULL, feature, &d), MR_OK);
 	return d;
 }
 

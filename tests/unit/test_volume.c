@@ -123,7 +123,8 @@ isosurface_of_a_sphere(void **state)
 		assert_true(fabs(mr_norm(m.p[i]) - 0.8) < 1e-3);
 }
 
-/* Of random insides without any points one wall stays; of two balls the one that has points, and its cavity goes. */
+/* Of random insides without any points one wall stays; of two balls the one that has points, and its cavity
+ * goes. */
 static void
 walls_without_points_go(void **state)
 {

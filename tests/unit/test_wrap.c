@@ -110,7 +110,8 @@ cut_over_a_hole(double hole, int how, mr_mesh *m)
 	return lids;
 }
 
-/* The rim around the points is an opening; a hole in them is from eight spacings on, or five where all are. */
+/* The rim around the points is an opening; a hole in them is from eight spacings on, or five where all are.
+ */
 static void
 test_wide_openings_are_cut_out(void **state)
 {

@@ -1,4 +1,4 @@
-# Textures, materials and colours of a simplified mesh are those of the places on the mesh that it was; seams, borders
+# Textures, materials and colours of a simplified or remeshed mesh are those of the places on the mesh that it was; seams, borders
 # and what is locked stay.  Beside formulas, from OBJ files alone.
 cat >check.py <<'PY'
 import math, sys
@@ -90,11 +90,16 @@ for share in 0.5 0.2 0.1; do
 	python3 check.py check_sphere out.obj "$(awk -v s=$share 'BEGIN { print int(s * 2208) + 1 }')" || exit
 	mr-simplify -j 1 -r $share sphere.mrs | mr-export -q one.obj && cmp out.obj one.obj || exit
 done
+for ratio in 0.7 1 2; do
+	mr-remesh -r $ratio sphere.mrs | mr-export -q -l base out.obj && python3 check.py check_sphere out.obj 5000 || exit
+	mr-remesh -j 1 -r $ratio sphere.mrs | mr-export -q -l base one.obj && cmp out.obj one.obj || exit
+done
 mr-import -q sphere.obj | mr-simplify -n 300 | mr-info --json >info.json || exit
 grep -q '"euler":2,.*"boundary_loops":0' info.json || { echo 'a seam has parted'; cat info.json; exit 1; }
 
 python3 check.py make_square square.obj 20 && mr-import -q square.obj -o square.mrs || exit
 mr-simplify -n 40 square.mrs | mr-export -q out.obj && python3 check.py check_square out.obj || exit
+mr-remesh -r 1.5 square.mrs | mr-export -q -l base out.obj && python3 check.py check_square out.obj || exit
 for lock in boundary region:0; do
 	mr-select --free all --fixed boundary square.mrs | mr-simplify --lock $lock -r 0.2 | mr-export -q out.obj || exit
 	python3 check.py rim out.obj square.obj || exit
@@ -106,7 +111,11 @@ awk 'BEGIN { print "ply\nformat ascii 1.0\nelement vertex 441\nproperty double x
 	print "property list uchar int vertex_indices\nend_header"
 	for (j = 0; j <= 20; j++) for (i = 0; i <= 20; i++) print i / 20, j / 20, 0, 12 * i, 12 * j, 7
 	for (j = 0; j < 20; j++) for (i = 0; i < 20; i++) { a = 21 * j + i; print 3, a, a + 1, a + 22; print 3, a, a + 22, a + 21 } }' >colour.ply
-mr-import colour.ply | mr-simplify -n 100 | mr-export -f ply-ascii - | awk '
+cat >linear.awk <<'END'
 	/end_header/ { at = NR } at && NR > at && NF >= 6 { n++; for (k = 1; k <= 2; k++) {
 		d = $(k + 3) - 240 * $k; if (d > 1 || d < -1 || $6 != 7) { print; bad = 1 } } }
-	END { exit bad || n < 40 }' || { echo 'colours are off'; exit 1; }
+	END { exit bad || n < 40 }
+END
+mr-import colour.ply | mr-simplify -n 100 | mr-export -f ply-ascii - | awk -f linear.awk &&
+    mr-import colour.ply | mr-remesh -r 2 | mr-export -l base -f ply-ascii - | awk -f linear.awk ||
+    { echo 'colours are off'; exit 1; }
