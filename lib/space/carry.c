@@ -63,20 +63,22 @@ mark_borders(const mr_mesh *m, const mr_topology *topo, const mr_column *c, uint
 }
 
 mr_status
-mr_layer_seams(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, uint8_t **seam)
+mr_layer_seams(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, uint8_t **seam)
 {
 	uint8_t *mark = MR_NEW_ZERO(ctx, 3 * m->nf, uint8_t);
 	bool any = false;
+	mr_topology topo;
 
+	MR_TRY(mr_topology_build(ctx, m, &topo));
 	for (size_t i = 0; i < f->count; i++) {
 		mr_column *c = &f->columns[i];
 		if (strcmp(c->layer, m->name) || c->rows != m->nf)
 			continue;
 		MR_TRY(mr_column_decode(ctx, c));
 		if (!strcmp(c->name, "corner_texcoord"))
-			mark_jumps(m, topo, c, mark);
+			mark_jumps(m, &topo, c, mark);
 		else if (c->shape.type == 'u' && is_bordered(c->name))
-			mark_borders(m, topo, c, mark);
+			mark_borders(m, &topo, c, mark);
 	}
 	for (size_t h = 0; h < 3 * m->nf; h++)
 		any |= mark[h];

@@ -23,8 +23,7 @@ typedef struct mr_successor {
  * objects: curves that stay curves.  seam: 3 m->nf, in the arena; NULL where there are none.  m: that layer
  * of f.
  */
-mr_status mr_layer_seams(
-    mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, uint8_t **seam) MR_WARN_UNUSED;
+mr_status mr_layer_seams(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, uint8_t **seam) MR_WARN_UNUSED;
 
 /* Joins vertices of layer m at the same place, as files have them along seams, where that leaves a manifold:
  * edges there would part otherwise. */

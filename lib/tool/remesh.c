@@ -36,7 +36,6 @@ remesh(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *o, mr_remesh_result *r)
 	mr_places over, map;
 	const char *layer;
 	mr_kept kept = { 0 };
-	mr_topology topo;
 	mr_carried *carried;
 	mr_mesh m, out;
 	size_t n = 0;
@@ -49,9 +48,7 @@ remesh(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *o, mr_remesh_result *r)
 		MR_TRY(mr_layer_join_seams(ctx, f, &m));
 	carries = mr_layer_carries(f, layer);
 	if (carries)
-		MR_TRY(mr_topology_build(ctx, &m, &topo));
-	if (carries)
-		MR_TRY(mr_layer_seams(ctx, f, &m, &topo, &kept.seam));
+		MR_TRY(mr_layer_seams(ctx, f, &m, &kept.seam));
 	MR_TRY(mr_remesh(ctx, &m, o, &kept, &out, &over, r));
 	if (carries)
 		MR_TRY(carry(ctx, f, &m, &out, &over, &kept, &carried, &n));

@@ -123,33 +123,22 @@ replace(mr_ctx *ctx, mr_frame *f, const uint32_t *onto, mr_successor s)
 
 /* The vertices that stay: those of boundaries, of seams or of a region. */
 static mr_status
-lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam,
-    mr_simplify_opts *o)
+lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint8_t *seam, mr_simplify_opts *o)
 {
 	bool *fixed = MR_NEW_ZERO(ctx, m->nv, bool);
 	const uint32_t *region = NULL;
+	mr_topology topo;
 
+	MR_TRY(mr_topology_build(ctx, m, &topo));
 	if (o->lock == MR_LOCK_REGION)
 		MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &region));
 	for (size_t v = 0; region && v < m->nv; v++)
 		fixed[v] = region[v] == o->region;
 	for (uint32_t h = 0; !region && h < 3 * m->nf; h++)
-		if (o->lock == MR_LOCK_BOUNDARY ? topo->twin[h] == MR_NONE : seam && seam[h])
+		if (o->lock == MR_LOCK_BOUNDARY ? topo.twin[h] == MR_NONE : seam && seam[h])
 			fixed[mr_he_from(m, h)] = fixed[mr_he_to(m, h)] = true;
 	o->fixed = fixed;
 	return MR_OK;
-}
-
-/* What stays of a surface whose place the result takes: its seams, and what is locked. */
-static mr_status
-hold(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_simplify_opts *o, uint8_t **seam)
-{
-	mr_topology topo;
-
-	MR_TRY(mr_topology_build(ctx, m, &topo));
-	if (o->face)
-		MR_TRY(mr_layer_seams(ctx, f, m, &topo, seam));
-	return o->lock ? lock(ctx, f, m, &topo, *seam, o) : MR_OK;
 }
 
 /* Whether it makes the control mesh of a mesh, whose faces tell its sharp edges. */
@@ -220,8 +209,10 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	onto = MR_NEW(ctx, surface.nv, uint32_t);
 	if (!o.to && !marks && mr_layer_carries(f, layer))
 		o.face = &face;
-	if (o.face || o.lock)
-		MR_TRY(hold(ctx, f, &surface, &o, &seam));
+	if (o.face)
+		MR_TRY(mr_layer_seams(ctx, f, &surface, &seam));
+	if (o.lock)
+		MR_TRY(lock(ctx, f, &surface, seam, &o));
 	if (seam)
 		marks = seam;
 	if (marks || (of_mesh(&o) && !o.smooth))
