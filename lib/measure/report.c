@@ -598,12 +598,10 @@ comparison_text(const mr_comparison *c, const mr_frame *f, const char *a, const 
 	}
 	mr_text_add(
 	    t, "  %-12s %12s %12s %12s %12s %12s\n", "quantile", "50 %", "90 %", "95 %", "99 %", "mean");
-	for (int i = 0; i < rows; i++)
-		row_text(t, names[i], d[i]->quantile, 4, i < 3 ? 1 : c->diagonal / 100);
-	if (!isnan(c->both.normal_mean)) {
-		const double *q = c->both.normal_quantile,
-			     x[5] = { q[0], q[1], q[2], q[3], c->both.normal_mean };
-		row_text(t, "normals, deg", x, 5, 1);
+	for (int i = 0; i < (isnan(c->both.normal_mean) ? 1 : 2); i++) {
+		const double *q = i ? c->both.normal_quantile : c->both.quantile,
+			     x[5] = { q[0], q[1], q[2], q[3], i ? c->both.normal_mean : c->both.mean };
+		row_text(t, i ? "of normals" : "of distances", x, 5, 1);
 	}
 	if (c->corresponds)
 		figures_text(t, deviation_figures, LENGTH(deviation_figures), &c->deviation);
