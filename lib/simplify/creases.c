@@ -10,15 +10,11 @@
 #include "space/local_planes.h"
 
 /* Points within REACH of a place count for it. */
-enum { AROUND = 10, NEAREST = 32, LEAST = 8, ROUNDS = 5, SPREAD = 3 };
+enum { AROUND = 10, NEAREST = 32, ROUNDS = 5, SPREAD = 3 };
 static const double REACH = 3;
 
 /* Variation of points in a plane, at most; a neighbour's plane is better where FLATTER times as flat. */
 static const double FLAT = 0.002, FLATTER = 4;
-
-/* Vertices that are looked at first, and the share of them that must be sharp. */
-enum { SOME = 512 };
-static const double SHARP = 0.033;
 
 /* Least ratio of eigenvalues of the normals' second moment that counts as a second plane: tan^2 of half the
  * angle between two, so 35 degrees. */
@@ -100,48 +96,6 @@ counts(const sight *s, uint32_t i, mr_v3 at, mr_v3 *r, double *height)
 	return mr_norm(*r) < REACH * s->width && fabs(*height) < FARTHEST * s->width;
 }
 
-static bool
-is_sharp(const sight *s, const uint32_t *near, mr_v3 at)
-{
-	meeting m = { .count = 0 };
-	double height;
-	mr_v3 r, x;
-
-	for (int i = 0; i < NEAREST; i++)
-		if (counts(s, near[i], at, &r, &height) && s->planes.variation[near[i]] < FLAT)
-			meet(&m, s->planes.normal[near[i]], height);
-	return m.count >= LEAST && solve(&m, OWN, &x) > 1 && mr_norm(x) < FARTHEST * s->width;
-}
-
-/* Whether enough of some vertices, at equal strides, are near a sharp edge: up to 2.9 % are of smooth
- * surfaces. */
-static mr_status
-look_for_edges(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, bool *any)
-{
-	size_t some = m->nv < SOME ? m->nv : SOME, all = some * NEAREST, sharp = 0;
-	mr_v3 *at = MR_NEW(ctx, some, mr_v3), *q = MR_NEW(ctx, all, mr_v3), p[AROUND];
-	uint32_t *near = MR_NEW(ctx, all, uint32_t), *around = MR_NEW(ctx, all * AROUND, uint32_t);
-	sight s = { q, { .normal = MR_NEW(ctx, all, mr_v3), .variation = MR_NEW(ctx, all, double) }, near,
-		c->sampling.usual };
-
-	mr_at_strides(m->p, m->nv, some, at);
-	MR_TRY(mr_near_query(ctx, c->near, at, some, NEAREST, near, NULL));
-	for (size_t i = 0; i < all; i++)
-		q[i] = near[i] == UINT32_MAX ? mr_vec(0, 0, 0) : c->p[near[i]];
-	MR_TRY(mr_near_query(ctx, c->near, q, all, AROUND, around, NULL));
-	for (size_t i = 0; i < all; i++) {
-		size_t k = 0;
-		for (; k < AROUND && around[i * AROUND + k] != UINT32_MAX; k++)
-			p[k] = c->p[around[i * AROUND + k]];
-		s.planes.normal[i] = mr_plane_fit(p, k, &s.planes.variation[i]);
-		near[i] = near[i] == UINT32_MAX ? UINT32_MAX : (uint32_t)i;
-	}
-	for (size_t v = 0; v < some; v++)
-		sharp += is_sharp(&s, near + NEAREST * v, at[v]);
-	*any = (double)sharp > SHARP * (double)some;
-	return MR_OK;
-}
-
 /* The plane that the surface has at a place, on one side of an edge; no normal: none is seen. */
 typedef struct side {
 	mr_v3 normal;
@@ -200,31 +154,10 @@ plane_through(const sight *s, size_t i)
 	return best;
 }
 
-/* The plane of a point and of those of its neighbours that are on its side. */
-static void
-fit_side(const sight *s, const mr_v3 *normal, size_t i)
-{
-	double like = cos(ALIKE * MR_PI / 180), variation;
-	mr_v3 p[AROUND] = { s->p[i] }, n;
-	size_t count = 1;
-
-	for (size_t k = 0; k < s->planes.links; k++) {
-		uint32_t j = s->planes.neighbor[i * s->planes.links + k];
-		if (j != UINT32_MAX && fabs(mr_dot(normal[j], normal[i])) > like)
-			p[count++] = s->p[j];
-	}
-	n = count > 4 ? mr_plane_fit(p, count, &variation) : normal[i];
-	if (count > 4 && fabs(mr_dot(n, normal[i])) > like) {
-		s->planes.normal[i] = n;
-		s->planes.variation[i] = variation;
-	}
-}
-
 /* Spreads the planes of points to those near an edge, each from its own side. */
 static void
 spread(mr_ctx *ctx, const sight *s, size_t n)
 {
-	uint8_t *taken = MR_NEW_ZERO(ctx, n, uint8_t);
 	uint32_t *from = MR_NEW(ctx, n, uint32_t);
 	mr_v3 *normal = MR_NEW(ctx, n, mr_v3);
 	double *variation = MR_NEW(ctx, n, double);
@@ -238,13 +171,8 @@ spread(mr_ctx *ctx, const sight *s, size_t n)
 			if (from[i] != MR_NONE) {
 				s->planes.normal[i] = normal[from[i]];
 				s->planes.variation[i] = variation[from[i]];
-				taken[i] = 1;
 			}
 	}
-	memcpy(normal, s->planes.normal, n * sizeof *normal);
-	for (size_t i = 0; i < n; i++)
-		if (taken[i])
-			fit_side(s, normal, i);
 }
 
 /* The plane that a place is nearest to. */
@@ -273,11 +201,25 @@ side_of(const sight *s, const uint32_t *near, mr_v3 at, mr_v3 outer)
 typedef struct finder {
 	const mr_mesh *m;
 	mr_topology topo;
-	sight s;
-	side *side;       /* of each vertex */
+	const mr_simplify_cloud *cloud;
+	sight s;          /* of the points of it that are looked at */
+	uint32_t *number; /* of each point of the cloud among those; UINT32_MAX */
+	side *side;       /* of each vertex; none of those that are not looked at */
 	uint32_t *middle; /* of each half-edge that is cut, the new vertex; MR_NONE */
 	size_t cut;       /* edges */
 } finder;
+
+/* The points near some places, NEAREST each. */
+static mr_status
+query(mr_ctx *ctx, const finder *f, const mr_v3 *at, size_t n, uint32_t **near)
+{
+	*near = mr_alloc(ctx, n, NEAREST * sizeof **near);
+	MR_TRY(mr_near_query(ctx, f->cloud->near, at, n, NEAREST, *near, NULL));
+	for (size_t i = 0; f->number && i < n * NEAREST; i++)
+		if ((*near)[i] != UINT32_MAX)
+			(*near)[i] = f->number[(*near)[i]];
+	return MR_OK;
+}
 
 /* Degrees between the sides of the ends of h. */
 static double
@@ -327,7 +269,9 @@ look_across(const finder *f, const uint32_t *near, mr_v3 at, crossing *c)
 
 	if (mr_dot(e, across) < 0)
 		across = mr_mul(-1, across);
-	for (int i = 0; i < NEAREST && near[i] != UINT32_MAX; i++) {
+	for (int i = 0; i < NEAREST; i++) {
+		if (near[i] == UINT32_MAX)
+			continue;
 		mr_v3 r = mr_mul(1 / f->s.width, mr_sub(f->s.p[near[i]], at)),
 		      n = f->s.planes.normal[near[i]];
 		double d = mr_norm(r) / REACH, x = mr_dot(r, across) / cos(half);
@@ -401,9 +345,9 @@ drop_curves(mr_ctx *ctx, const finder *f, crossing *c, size_t n)
 	return any;
 }
 
-/* Numbers the edges that are crossed by curves. */
+/* Numbers the edges that are crossed by curves: none, where most that seem to be are not. */
 static mr_status
-cut_edges(mr_ctx *ctx, finder *f, const mr_simplify_cloud *cloud)
+cut_edges(mr_ctx *ctx, finder *f)
 {
 	size_t nh = 3 * f->m->nf, n = 0;
 	uint32_t *near;
@@ -416,13 +360,12 @@ cut_edges(mr_ctx *ctx, finder *f, const mr_simplify_cloud *cloud)
 	}
 	c = MR_NEW_ZERO(ctx, n, crossing);
 	at = MR_NEW(ctx, n, mr_v3);
-	near = mr_alloc(ctx, n, NEAREST * sizeof *near);
 	for (uint32_t h = 0; h < nh; h++)
 		if (f->middle[h] != MR_NONE && edge_of(f, h) == h) {
 			c[f->middle[h]].h = h;
 			at[f->middle[h]] = place_on(f, h);
 		}
-	MR_TRY(mr_near_query(ctx, cloud->near, at, n, NEAREST, near, NULL));
+	MR_TRY(query(ctx, f, at, n, &near));
 	for (size_t i = 0; i < n; i++)
 		look_across(f, near + NEAREST * i, at[i], &c[i]);
 	for (int round = 0; round < ROUNDS && drop_curves(ctx, f, c, n); round++)
@@ -433,6 +376,7 @@ cut_edges(mr_ctx *ctx, finder *f, const mr_simplify_cloud *cloud)
 		if (f->middle[h] != MR_NONE)
 			f->middle[h] = e < h ? f->middle[e] : (uint32_t)(f->m->nv + f->cut++);
 	}
+	f->cut = 2 * f->cut > n ? f->cut : 0;
 	return MR_OK;
 }
 
@@ -524,10 +468,10 @@ cut_surface(mr_ctx *ctx, const finder *f, cutting *c)
 
 /* New vertices go to where the sides meet, those that they lie between onto their side. */
 static mr_status
-snap(mr_ctx *ctx, finder *f, const mr_simplify_cloud *cloud, cutting *c)
+snap(mr_ctx *ctx, finder *f, cutting *c)
 {
 	size_t nv = f->m->nv, nw = c->nv - nv;
-	uint32_t *near = mr_alloc(ctx, nw, NEAREST * sizeof *near);
+	uint32_t *near;
 
 	c->moved = MR_NEW_ZERO(ctx, nv, const side *);
 	memcpy(c->to, c->p, c->nv * sizeof *c->p);
@@ -537,7 +481,7 @@ snap(mr_ctx *ctx, finder *f, const mr_simplify_cloud *cloud, cutting *c)
 			c->moved[v] = &f->side[v];
 			c->to[v] = mr_axpy(f->side[v].height, f->side[v].normal, c->p[v]);
 		}
-	MR_TRY(mr_near_query(ctx, cloud->near, c->p + nv, nw, NEAREST, near, NULL));
+	MR_TRY(query(ctx, f, c->p + nv, nw, &near));
 	for (size_t w = 0; w < nw; w++) {
 		meeting s = { .count = 0 };
 		mr_v3 x;
@@ -600,30 +544,85 @@ make_way(mr_ctx *ctx, const cutting *c, size_t nv)
 	}
 }
 
-static mr_status
-find(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_mesh *out, uint8_t **mark)
+/* The vertices about edges across which the normals of the surface turn by two thirds of the angle, on which
+ * a wrap that rounds an edge turns. */
+static size_t
+find_turns(mr_ctx *ctx, const finder *f, const mr_v3 *normal, uint32_t *at, mr_v3 *place)
 {
-	finder f = { .m = m, .s = { .p = c->p, .width = c->sampling.usual } };
-	uint32_t *near = mr_alloc(ctx, m->nv, NEAREST * sizeof *near);
-	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3);
+	uint8_t *seen = MR_NEW_ZERO(ctx, f->m->nv, uint8_t);
+	double turn = cos(ANGLE / 1.5 * MR_PI / 180);
+	size_t n = 0;
+
+	for (uint32_t h = 0; h < 3 * f->m->nf; h++) {
+		uint32_t twin = f->topo.twin[h];
+		if (twin != MR_NONE && mr_dot(normal[mr_he_to(f->m, mr_he_next(h))],
+					   normal[mr_he_to(f->m, mr_he_next(twin))]) < turn)
+			for (int k = 0; k < 3; k++)
+				seen[f->m->t[h / 3].v[k]] = 1;
+	}
+	for (uint32_t v = 0; v < f->m->nv; v++)
+		if (seen[v]) {
+			at[n] = v;
+			place[n++] = f->m->p[v];
+		}
+	return n;
+}
+
+/* Looks at the sides of the vertices where the surface turns, by the points near them. */
+static mr_status
+look(mr_ctx *ctx, finder *f)
+{
+	size_t nv = f->m->nv, n, np = 0;
+	uint32_t *at = MR_NEW(ctx, nv, uint32_t), *near, *number = MR_NEW(ctx, f->cloud->n, uint32_t);
+	mr_v3 *normal = MR_NEW(ctx, nv, mr_v3), *place = MR_NEW(ctx, nv, mr_v3), *p;
+
+	f->side = MR_NEW_ZERO(ctx, nv, side);
+	mr_vertex_normals(f->m, normal);
+	n = find_turns(ctx, f, normal, at, place);
+	MR_TRY(query(ctx, f, place, n, &near));
+	memset(number, 0xff, f->cloud->n * sizeof *number);
+	p = MR_NEW(ctx, n * NEAREST, mr_v3);
+	for (size_t i = 0; i < n * NEAREST; i++) {
+		uint32_t k = near[i];
+		if (k == UINT32_MAX)
+			continue;
+		if (number[k] == UINT32_MAX) {
+			number[k] = (uint32_t)np;
+			p[np++] = f->cloud->p[k];
+		}
+		near[i] = number[k];
+	}
+	f->number = number;
+	f->s.p = p;
+	if (np > 0)
+		MR_TRY(mr_cloud_planes(ctx, p, np, AROUND, AROUND - 1, false, &f->s.planes));
+	spread(ctx, &f->s, np);
+	for (size_t i = 0; i < n; i++)
+		f->side[at[i]] = side_of(&f->s, near + NEAREST * i, place[i], normal[at[i]]);
+	return MR_OK;
+}
+
+mr_status
+mr_find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_mesh *out, uint8_t **mark)
+{
+	finder f = { .m = m, .cloud = c, .s = { .width = c->sampling.usual } };
 	mr_topology topo;
 	cutting cut;
 	mr_guard guard;
+	mr_mark here = mr_mark_take(ctx);
 
-	f.side = MR_NEW(ctx, m->nv, side);
+	*out = *m;
+	*mark = NULL;
 	f.middle = MR_NEW(ctx, 3 * m->nf, uint32_t);
 	MR_TRY(mr_topology_build(ctx, m, &f.topo));
-	MR_TRY(mr_cloud_planes(ctx, c->p, c->n, AROUND, AROUND - 1, false, &f.s.planes));
-	spread(ctx, &f.s, c->n);
-	MR_TRY(mr_near_query(ctx, c->near, m->p, m->nv, NEAREST, near, NULL));
-	mr_vertex_normals(m, normal);
-	for (size_t v = 0; v < m->nv; v++)
-		f.side[v] = side_of(&f.s, near + NEAREST * v, m->p[v], normal[v]);
-	MR_TRY(cut_edges(ctx, &f, c));
-	if (f.cut == 0)
+	MR_TRY(look(ctx, &f));
+	MR_TRY(cut_edges(ctx, &f));
+	if (f.cut == 0) {
+		mr_mark_release(ctx, here);
 		return MR_OK;
+	}
 	cut_surface(ctx, &f, &cut);
-	MR_TRY(snap(ctx, &f, c, &cut));
+	MR_TRY(snap(ctx, &f, &cut));
 	*out = (mr_mesh){ m->name, cut.p, cut.t, cut.nv, cut.nf };
 	MR_TRY(mr_topology_build(ctx, out, &topo));
 	make_way(ctx, &cut, m->nv);
@@ -636,18 +635,6 @@ find(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_mesh *out, ui
 		.arg = &cut };
 	MR_TRY(mr_guarded_move(ctx, &guard, cut.p, cut.to));
 	out->p = cut.to;
-
 	*mark = cut.mark;
 	return MR_OK;
-}
-
-mr_status
-mr_find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_mesh *out, uint8_t **mark)
-{
-	bool any;
-
-	*out = *m;
-	*mark = NULL;
-	MR_TRY(look_for_edges(ctx, m, c, &any));
-	return any ? find(ctx, m, c, out, mark) : MR_OK;
 }
