@@ -227,7 +227,7 @@ static mr_status
 parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size, mr_model *m)
 {
 	const mr_file_format *f = NULL;
-	mr_model got = { 0 };
+	mr_model got = { .path = path };
 
 	mr_skip_mark(&data, &size);
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));

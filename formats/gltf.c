@@ -1,5 +1,8 @@
-/* glTF documents: the chunks of a GLB, JSON, buffers that are in the file, and accessors. */
+/* glTF documents: the chunks of a GLB, JSON, buffers, and accessors. */
 #include "formats/gltf.h"
+
+#include "base/memory.h"
+#include "formats/materials.h"
 
 /* ---- chunks and JSON ---- */
 
@@ -104,12 +107,12 @@ mr_gltf_own(mr_ctx *ctx, json_t *json)
 }
 
 mr_status
-mr_gltf_open(mr_ctx *ctx, const unsigned char *data, size_t size, mr_gltf *g)
+mr_gltf_open(mr_ctx *ctx, const char *path, const unsigned char *data, size_t size, mr_gltf *g)
 {
 	const unsigned char *json = data;
 	size_t bytes = size;
 
-	*g = (mr_gltf){ .ctx = ctx };
+	*g = (mr_gltf){ .ctx = ctx, .path = path };
 	if (size >= 4 && mr_load32(data, false) == MR_GLTF_MAGIC)
 		MR_TRY(open_chunks(g, data, size, &json, &bytes));
 	MR_TRY(parse(g, json, bytes));
@@ -230,7 +233,34 @@ decode64(mr_gltf *g, size_t number, const char *text, mr_gltf_buffer *b)
 	return MR_OK;
 }
 
-/* The bytes of a buffer: of the GLB, or in the URI; what only an extension fills has none. */
+/* The file that a URI names. */
+static mr_status
+read_file(mr_gltf *g, size_t number, const char *uri, mr_gltf_buffer *b)
+{
+	char *name = mr_format(g->ctx, "%s", uri);
+	mr_file_bytes file = { 0 };
+	const char *path;
+	size_t n = 0;
+
+	for (const char *c = uri; *c; c++) {
+		char two[] = { c[1], c[1] ? c[2] : '\0', '\0' }, *end;
+		unsigned long escaped = strtoul(two, &end, 16);
+		bool is = *c == '%' && end == two + 2;
+		name[n++] = is ? (char)escaped : *c;
+		c += is ? 2 : 0;
+	}
+	path = mr_file_beside(g->ctx, g->path, name, n);
+	if (!path)
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "buffer %zu is the file %.100s, which is missing", number, uri);
+	MR_TRY(mr_file_bytes_read(g->ctx, path, &file));
+	mr_own(g->ctx, mr_memory_free, file.memory);
+	*b = (mr_gltf_buffer){ file.data, file.size };
+	return MR_OK;
+}
+
+/* The bytes of a buffer: of the GLB, in the URI, or in the file that it names; what only an extension fills
+ * has none. */
 static mr_status
 find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 {
@@ -239,10 +269,7 @@ find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 	const char *text = json_string_value(uri), *data = text ? strstr(text, ";base64,") : NULL;
 
 	if (text && strncmp(text, "data:", 5) != 0)
-		return mr_fail(g->ctx, MR_EFORMAT,
-		    "buffer %zu is in another file, %.100s: only what is in the file itself is read, as a "
-		    "glb has it",
-		    number, text);
+		return read_file(g, number, text, b);
 	if (uri && !data)
 		return mr_fail(
 		    g->ctx, MR_EFORMAT, "buffer %zu is in a URI without base 64, which is not read", number);

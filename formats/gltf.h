@@ -4,7 +4,7 @@
  *
  * Contract: what an index of the document names is there, what a buffer view or an accessor covers lies
  * inside its buffer, and every failure is MR_EFORMAT with a sentence that names the thing ("accessor 3 ...").
- * Buffers are looked at when something needs them: one that is in another file is no fault until then. Layer
+ * Buffers are looked at when something needs them: one whose file is missing is no fault until then. Layer
  * rule: formats; jansson only behind this header.
  */
 #ifndef MR_GLTF_H
@@ -33,14 +33,15 @@ typedef struct mr_gltf_buffer {
 
 typedef struct mr_gltf {
 	mr_ctx *ctx;
+	const char *path; /* of the document */
 	json_t *root;
 	const unsigned char *bin; /* the chunk of bytes of a GLB; NULL: there is none */
 	size_t bin_bytes;
 	mr_gltf_buffer *buffer; /* as many as the document has */
 } mr_gltf;
 
-/* Parses the file, a GLB or JSON, which must stay. */
-mr_status mr_gltf_open(mr_ctx *ctx, const unsigned char *data, size_t size, mr_gltf *g) MR_WARN_UNUSED;
+/* Parses the file, a GLB or JSON, which must stay; path: beside which its buffers are. */
+mr_status mr_gltf_open(mr_ctx *ctx, const char *path, const unsigned char *data, size_t size, mr_gltf *g) MR_WARN_UNUSED;
 
 /* Leaves it to the arena to drop the JSON; NULL is nothing. */
 void mr_gltf_own(mr_ctx *ctx, json_t *json);

@@ -429,9 +429,6 @@ read_vertices(reader *r)
 {
 	for (size_t k = 0; k < ATTRIBUTES; k++)
 		MR_TRY(read_columns(r, k));
-	for (size_t i = 0; i < 3 * r->n; i++)
-		if (!isfinite(r->column[POSITION][i]))
-			return mr_fail(r->g.ctx, MR_EFORMAT, "position %zu is not finite", i / 3);
 	if (r->column[NORMAL] && !mr_normals_left(r->g.ctx, (mr_v3 *)(void *)r->column[NORMAL], r->n))
 		r->column[NORMAL] = NULL;
 	if (!mr_left_out(r->g.ctx, r->odd_uv, r->n, "texture coordinates"))
@@ -636,7 +633,7 @@ mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	reader r = { .b.ctx = ctx };
 
-	MR_TRY(mr_gltf_open(ctx, data, size, &r.g));
+	MR_TRY(mr_gltf_open(ctx, m->path, data, size, &r.g));
 	MR_TRY(find_scene(&r.g, &r.scene));
 	MR_TRY(find_parts(&r));
 	MR_TRY(read_vertices(&r));

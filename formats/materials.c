@@ -30,23 +30,32 @@ is_file(const char *path)
 	return stat(path, &st) == 0 && S_ISREG(st.st_mode);
 }
 
-/* The file that a path of the model's author leads to, as it stands where that is below the folder, or by its
- * last name; NULL where neither is there. */
-static const char *
-find_file(const finder *f, const char *name, size_t bytes)
+const char *
+mr_file_in(mr_ctx *ctx, const char *folder, const char *name, size_t bytes)
 {
-	char *here = mr_format(f->ctx, "%.*s", (int)bytes, name);
+	char *here = mr_format(ctx, "%.*s", (int)bytes, name);
 	const char *last, *path;
 
 	for (char *c = here; *c; c++)
 		if (*c == '\\')
 			*c = '/';
-	path = mr_format(f->ctx, "%s/%s", f->folder, here);
+	path = mr_format(ctx, "%s/%s", folder, here);
 	if (*here != '/' && !strstr(here, "..") && is_file(path))
 		return path;
 	last = strrchr(here, '/');
-	path = last ? mr_format(f->ctx, "%s%s", f->folder, last) : NULL;
+	path = last ? mr_format(ctx, "%s%s", folder, last) : NULL;
 	return path && is_file(path) ? path : NULL;
+}
+
+const char *
+mr_file_beside(mr_ctx *ctx, const char *model, const char *name, size_t bytes)
+{
+	const char *slash = strrchr(model, '/');
+
+	if (!*model || !strcmp(model, "-"))
+		return NULL;
+	return mr_file_in(
+	    ctx, slash ? mr_format(ctx, "%.*s", (int)(slash - model), model) : ".", name, bytes);
 }
 
 /* ---- statements ---- */
@@ -62,7 +71,7 @@ picture(finder *f, mr_scan *t)
 	if (t->p < t->end && *t->p == '-')
 		for (mr_scan ahead = *t; mr_scan_word(&ahead, &found, &n);)
 			t->p = found;
-	found = find_file(f, t->p, (size_t)(t->end - t->p));
+	found = mr_file_in(f->ctx, f->folder, t->p, (size_t)(t->end - t->p));
 	mr_tell(f->ctx, MR_MISSING, !found, "%.*s", (int)(t->end - t->p), t->p);
 	return found;
 }
@@ -161,14 +170,11 @@ statements(finder *f, size_t count, const unsigned char *data, size_t size)
 	return MR_OK;
 }
 
-/* Nothing is read where the materials are not asked for. */
 static mr_status
 read_library(finder *f, size_t count, const char *path)
 {
 	mr_file_bytes b = { 0 };
 
-	if (!f->list)
-		return MR_OK;
 	f->files++;
 	MR_TRY(mr_file_bytes_read(f->ctx, path, &b));
 	return mr_prefix(f->ctx, mr_file_bytes_end(&b, statements(f, count, b.data, b.size)), "%s", path);
@@ -181,7 +187,7 @@ read_libraries(finder *f, size_t count, mr_lines files)
 	mr_scan text = mr_scan_of(f->ctx, (const unsigned char *)files.text, files.bytes), line;
 
 	while (mr_scan_line(&text, &line)) {
-		const char *path = find_file(f, line.p, (size_t)(line.end - line.p));
+		const char *path = mr_file_in(f->ctx, f->folder, line.p, (size_t)(line.end - line.p));
 		if (path)
 			MR_TRY(read_library(f, count, path));
 		mr_tell(f->ctx, MR_MISSING, !path, "%.*s", (int)(line.end - line.p), line.p);
@@ -230,11 +236,12 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	return MR_OK;
 }
 
-mr_status
+void
 mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files)
 {
-	const char *slash = strrchr(path, '/');
-	finder f = { .ctx = ctx, .folder = slash ? mr_format(ctx, "%.*s", (int)(slash - path), path) : "." };
+	mr_scan text = mr_scan_of(ctx, (const unsigned char *)files.text, files.bytes), line;
 
-	return strcmp(path, "-") ? read_libraries(&f, 0, files) : MR_OK;
+	while (strcmp(path, "-") && mr_scan_line(&text, &line))
+		mr_tell(ctx, MR_MISSING, !mr_file_beside(ctx, path, line.p, (size_t)(line.end - line.p)),
+		    "%.*s", (int)(line.end - line.p), line.p);
 }

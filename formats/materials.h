@@ -22,6 +22,13 @@ typedef struct mr_material {
 /* What nothing is said of: opaque, of no metal, and rough as most things are. */
 extern const mr_material mr_material_plain;
 
+/* The file that a path of the model's author leads to, as it stands where that is below the folder, or by its
+ * last name; NULL where neither is there. */
+const char *mr_file_in(mr_ctx *ctx, const char *folder, const char *name, size_t bytes);
+
+/* The same in the folder of the model; NULL also of one that has no folder, "-" or "". */
+const char *mr_file_beside(mr_ctx *ctx, const char *model, const char *name, size_t bytes);
+
 /*
  * What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
  * there is reported, no failure.  list: *count, in the arena; none of a model without materials.
@@ -30,6 +37,6 @@ mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 
 /* Reports files of materials that are not where the model at `path` ("-": nowhere) names them. */
-mr_status mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files) MR_WARN_UNUSED;
+void mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files);
 
 #endif

@@ -27,7 +27,8 @@ static const struct {
 	{ "object", "objects", offsetof(mr_model, object), true },
 	{ "material", "materials", offsetof(mr_model, material), true },
 	{ "smoothing", "smoothing groups", offsetof(mr_model, smoothing), true },
-	{ "polygon", "polygons", offsetof(mr_model, polygon), true },
+	{ "polygon", NULL, offsetof(mr_model, polygon),
+	    true }, /* that a format has triangles alone is no news */
 };
 
 /* Names, and the column without which they say nothing. */
@@ -95,7 +96,7 @@ mr_note_lost(mr_sink *s, const mr_model *m, const char *keeps)
 	size_t clear = 0;
 
 	for (size_t i = 0; i < COLUMNS; i++)
-		if (column_of(m, i) && !is_in(keeps, columns[i].name)) {
+		if (columns[i].what && column_of(m, i) && !is_in(keeps, columns[i].name)) {
 			size_t each = strncmp(columns[i].name, "corner_", 7) ? 1 : 3;
 			mr_lost(s->ctx, NULL, columns[i].of_faces ? each * m->nf : m->nv, columns[i].what);
 		}
@@ -355,7 +356,7 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	if (o->repair)
 		MR_TRY(mr_prefix(ctx, mr_layer_repair(ctx, f, layer), "%s", path));
 	*frame = f;
-	MR_TRY(mr_libraries_missing(ctx, path, m.mtllib));
+	mr_libraries_missing(ctx, path, m.mtllib);
 	m.counts.vertices = mr_frame_find(f, layer, "position")->rows;
 	m.counts.triangles = m.nf ? mr_frame_find(f, layer, "triangles")->rows : 0;
 	if (result)

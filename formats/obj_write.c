@@ -157,14 +157,13 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 		{ 'n', 3, (const double *)m->normal, (const double *)m->corner_normal, NULL } };
 
 	mr_note_lost(s, m,
-	    "normal corner_normal color texcoord corner_texcoord group object material smoothing polygon "
-	    "faces");
+	    "normal corner_normal color texcoord corner_texcoord group object material smoothing faces");
 	put_libraries(s, m->mtllib);
 	for (size_t i = 0; i < m->nv; i++)
 		put_vertex(s, m, i);
 	put_values(s, m, &x[0]);
 	put_values(s, m, &x[1]);
-	MR_TRY(mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib));
+	mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib);
 	put_faces(s, m, x);
 	return MR_OK;
 }

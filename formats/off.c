@@ -256,7 +256,7 @@ mr_off_write(mr_sink *s, const mr_model *m)
 	mr_part part[MR_PARTS];
 	mr_polygons faces;
 
-	mr_note_lost(s, m, "normal color alpha texcoord polygon faces");
+	mr_note_lost(s, m, "normal color alpha texcoord faces");
 	mr_faces_of(s, m, &faces);
 	mr_print(s, "%s%s%sOFF\n", m->texcoord ? "ST" : "", m->color ? "C" : "", m->normal ? "N" : "");
 	mr_print(s, "%zu %zu 0\n", m->nv, faces.count);

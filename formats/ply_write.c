@@ -81,7 +81,7 @@ put(mr_sink *s, const mr_model *m, bool text)
 {
 	output w = { .s = s, .m = m, .text = text };
 
-	mr_note_lost(s, m, "normal scanner color alpha texcoord corner_texcoord polygon property faces");
+	mr_note_lost(s, m, "normal scanner color alpha texcoord corner_texcoord property faces");
 	w.part = MR_NEW(s->ctx, MR_PARTS + m->properties, mr_part);
 	mr_vertex_parts(m, w.part);
 	for (size_t i = 0; i < m->properties; i++) { /* those of vertices come first */

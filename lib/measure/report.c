@@ -147,6 +147,8 @@ static void
 box(mr_text *t, const mr_box *b, bool json)
 {
 	const double x[6] = { b->min.x, b->min.y, b->min.z, b->max.x, b->max.y, b->max.z };
+	const double far = mr_box_largest(*b) / mr_box_diagonal(*b); /* from the origin, in diagonals */
+	const int digits = 6 + (far > 1 && far < 1e11 ? (int)log10(far) : 0);
 
 	for (int i = 0; i < 6; i++) {
 		const char *before = i == 0 ? ",\"box\":[[" : i == 3 ? "],[" : ",";
@@ -154,7 +156,11 @@ box(mr_text *t, const mr_box *b, bool json)
 			mr_text_add(t, "%s", before);
 			mr_text_number(t, x[i]);
 		} else
-			mr_text_figure(t, i == 0 ? "    box            " : i == 3 ? " to " : " ", 6, x[i]);
+			mr_text_figure(t,
+			    i == 0   ? "    box            "
+			    : i == 3 ? " to "
+				     : " ",
+			    digits, x[i]);
 	}
 	mr_text_add(t, json ? "]]" : "\n");
 }

@@ -21,6 +21,18 @@ mr-import -q c.gltf >/dev/null
 document >d.gltf '' '' "$(document | grep -o ',"uri[^}]*')" '{"mode":1,"attributes":{"POSITION":0}},{"attributes":{"POSITION":0,"TEXCOORD_1":0},"targets":[{}]}'
 mr-import d.gltf >/dev/null
 
+echo '-- a buffer in a file beside the model, under an escaped name, and no other file'
+mkdir beside
+document >beside/a.gltf '' '' ',"uri":"my%20parts%2B1.bin"'
+sed -n 's/.*base64,\([^"]*\).*/\1/p' a.gltf | base64 -d >'beside/my parts+1.bin'
+mr-import a.gltf | mr-export -f obj a.obj
+mr-import beside/a.gltf | mr-export -f obj - | cmp - a.obj
+for uri in '../beside/my%20parts%2B1.bin' '%2e%2e/secret' "$PWD/beside/my parts+1.bin" 'absent%2' 'http://x.org/my%20parts%2B1.bin'; do
+	document >beside/e.gltf '' '' ',"uri":"'"$uri"'"'
+	mr-import beside/e.gltf 2>&1 >/dev/null | grep -o 'buffer.*' || echo "$uri is read" | sed "s,$PWD,,"
+done
+mr-import <beside/a.gltf
+
 echo '-- what is refused'
 refused() {
 	mr-import "$1" >out

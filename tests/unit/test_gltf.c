@@ -288,8 +288,7 @@ refused(void **state)
 	refuses("\"POSITION\":0", "\"POSITION\":-1",
 	    "mesh 0, primitive 0: POSITION is no whole number of 0 to 18446744073709551614");
 	refuses("\"byteLength\":126", "\"byteLength\":126,\"uri\":\"square.bin\"",
-	    "mesh 0, primitive 0: accessor 0: buffer 0 is in another file, square.bin: only what is in the "
-	    "file itself is read, as a glb has it");
+	    "mesh 0, primitive 0: accessor 0: buffer 0 is the file square.bin, which is missing");
 	refuses("\"byteLength\":126", "\"byteLength\":400",
 	    "mesh 0, primitive 0: accessor 0: buffer 0 should have 400 bytes, and has 128");
 	refuses("\"byteLength\":72", "\"byteLength\":200",
