@@ -8,7 +8,7 @@
 #include "formats/map.h"
 #include "formats/scan.h"
 #include "formats/suffix.h"
-#include "subdivide/atlas.h"
+#include "render/bake.h"
 
 #include <sys/stat.h>
 
@@ -148,22 +148,10 @@ frame_at(const mapping *m, const mr_texel *t, mr_v3 frame[3])
 	frame[1] = mr_cross(frame[2], frame[0]);
 }
 
-/* What x, y, z are with x T + y B + z N = n, made unit: by Cramer's rule; along N where the frame is none. */
 static mr_v3
-in_frame(const mr_v3 frame[3], mr_v3 n)
+normal_of(const mapping *m, const mr_texel *t)
 {
-	double det = mr_dot(frame[0], mr_cross(frame[1], frame[2]));
-	mr_v3 local = mr_mul(det > 0 ? 1 : 0,
-	    mr_vec(mr_dot(n, mr_cross(frame[1], frame[2])), mr_dot(n, mr_cross(frame[2], frame[0])),
-		mr_dot(n, mr_cross(frame[0], frame[1]))));
-
-	return mr_norm2(local) > 0 ? mr_unit(local) : mr_vec(0, 0, 1);
-}
-
-static uint8_t
-to_byte(double x)
-{
-	return (uint8_t)(127.5 * (x + 1) + 0.5);
+	return mr_add(m->normal[t->v[0]], mr_sub(m->normal[t->v[1]], m->normal[t->v[2]]));
 }
 
 static void
@@ -175,16 +163,14 @@ draw_normals(void *arg, size_t begin, size_t end)
 		m->count[y] = 0;
 		for (size_t x = 0; x < m->atlas.width; x++) {
 			mr_texel t = mr_atlas_texel(&m->atlas, x, y);
-			mr_v3 frame[3], n = mr_vec(0, 0, 1);
-			if (t.face != MR_NONE) {
+			mr_rgb *pixel = &m->image.pixel[y * m->image.width + x];
+			mr_v3 frame[3] = { { 0 } };
+			bool turned = false;
+			if (t.face != MR_NONE)
 				frame_at(m, &t, frame);
-				n = mr_add(m->normal[t.v[0]], mr_sub(m->normal[t.v[1]], m->normal[t.v[2]]));
-				n = in_frame(frame, n);
-				m->count[y] += t.v[1] == t.v[2] && n.z < 0;
-				n = mr_unit(mr_vec(n.x, n.y, fmax(n.z, 0)));
-			}
-			m->image.pixel[y * m->image.width + x] = (mr_rgb){ to_byte(n.x), to_byte(n.y),
-				to_byte(n.z) };
+			*pixel = mr_normal_pixel(
+			    frame, t.face != MR_NONE ? normal_of(m, &t) : mr_vec(0, 0, 1), &turned);
+			m->count[y] += turned && t.v[1] == t.v[2];
 		}
 	}
 }
@@ -216,87 +202,73 @@ write_normals(mr_ctx *ctx, mapping *m, const char *path)
 
 /* ---- what names the pictures ---- */
 
-/* What the file of a material begins with, but for what the heights are.  NULL: no memory. */
-static const char *
-material_begins(mr_ctx *ctx, const char *name)
-{
-	return mr_format(ctx, "newmtl %s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm ", name, name);
-}
+static const char MARK[] = "# a map of mr-map\n";
 
-/* disp and its option -mm (Wavefront, "Advanced Visualizer", appendix B2): a texel's value is times the gain
- * and plus the base.  norm is what programs of today add. */
-static mr_status
-write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path)
+mr_status
+mr_map_write_material(mr_ctx *ctx, const char *name, const char *statements)
 {
-	const char *begins = material_begins(ctx, name), *range = numbers(ctx, m->low, m->high - m->low);
 	mr_sink sink;
 
-	MR_TRY(mr_sink_open(ctx, path, false, &sink));
-	mr_print(&sink, "%s%s %s-height.png\n", begins, range, name);
+	MR_TRY(mr_sink_open(ctx, mr_format(ctx, "%s.mtl", name), false, &sink));
+	mr_print(&sink, "%snewmtl %s\n%s", MARK, mr_file_name(name), statements);
 	return mr_sink_close(&sink, MR_OK);
 }
 
-/* Refuses the place of a file that write_material has not made. */
-static mr_status
-check_place(mr_ctx *ctx, const char *name, const char *path)
+mr_status
+mr_map_check_place(mr_ctx *ctx, const char *name)
 {
-	const char *begins = material_begins(ctx, name);
-	size_t n = begins ? strlen(begins) : 0;
-	char *first = MR_NEW(ctx, n + 1, char);
+	const char *path = mr_format(ctx, "%s.mtl", name);
+	char first[sizeof MARK];
 	struct stat st;
 	bool own = true;
 	FILE *file;
 
 	file = stat(path, &st) == 0 && S_ISREG(st.st_mode) ? fopen(path, "rb") : NULL;
 	if (file) {
-		size_t got = fread(first, 1, n, file);
-		own = got == 0 || (got == n && !memcmp(first, begins, n));
+		size_t got = fread(first, 1, sizeof MARK - 1, file);
+		own = got == 0 || (got == sizeof MARK - 1 && !memcmp(first, MARK, got));
 		fclose(file);
 	}
 	return own ? MR_OK
-	           : mr_fail(ctx, MR_EUSAGE, "%s is of no map, and would be lost: give another name", path);
+	           : mr_fail(ctx, MR_EUSAGE, "%s.mtl is of no map, and would be lost: give another name",
+			 mr_file_name(name));
 }
 
-/* Tells of the columns of control that the map replaces. */
-static void
-lose_replaced(mr_ctx *ctx, mr_frame *f)
-{
-	static const char *const columns[] = { "texcoord", "corner_texcoord", "material" };
-
-	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
-		mr_lost(ctx, "control", mr_layer_has(f, "control", columns[i]), columns[i]);
-}
-
-static mr_status
-put_texcoords(mr_ctx *ctx, mr_frame *f, const mr_atlas *a)
+double *
+mr_map_texcoords(mr_ctx *ctx, const mr_atlas *a)
 {
 	double *uv = MR_NEW(ctx, 6 * a->faces, double);
 
 	for (size_t face = 0; face < a->faces; face++)
 		mr_atlas_texcoords(a, face, uv + 6 * face);
-	mr_frame_drop(f, "control", "texcoord", 0);
-	mr_frame_drop(f, "control", "polygon", 0); /* whose corners might have several */
-	return mr_layer_put(ctx, f, "control", "corner_texcoord", uv, a->faces);
+	return uv;
 }
 
-static mr_status
-put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
+mr_status
+mr_map_put_material(
+    mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const double *uv, const char *name)
 {
-	uint32_t *material = MR_NEW_ZERO(ctx, a->faces, uint32_t);
-	char *file = mr_format(ctx, "%s.mtl", name);
-	size_t bytes;
+	static const char *const columns[] = { "material", "texcoord", "corner_texcoord" };
+	uint32_t *material = MR_NEW_ZERO(ctx, nf, uint32_t);
+	char *file = mr_format(ctx, "%s.mtl", mr_file_name(name));
+	size_t bytes = mr_clean_name(file, file, strlen(file), false);
 
-	bytes = mr_clean_name(file, file, strlen(file), false);
-	MR_TRY(mr_layer_put(ctx, f, "control", "material", material, a->faces));
-	MR_TRY(mr_layer_put(ctx, f, "control", "materials", file, bytes - strlen(".mtl")));
-	return mr_layer_put(ctx, f, "control", "mtllib", file, bytes);
+	for (size_t i = 0; i < (uv ? 3 : 1); i++)
+		mr_lost(ctx, layer, mr_layer_has(f, layer, columns[i]), columns[i]);
+	if (uv) {
+		mr_frame_drop(f, layer, "texcoord", 0);
+		mr_frame_drop(f, layer, "polygon", 0); /* whose corners might have several */
+		MR_TRY(mr_layer_put(ctx, f, layer, "corner_texcoord", uv, nf));
+	}
+	MR_TRY(mr_layer_put(ctx, f, layer, "material", material, nf));
+	MR_TRY(mr_layer_put(ctx, f, layer, "materials", file, bytes - strlen(".mtl")));
+	return mr_layer_put(ctx, f, layer, "mtllib", file, bytes);
 }
 
 /* ---- writing ---- */
 
-/* It is a material's name, too, on a line of its own. */
-static mr_status
-check_name(mr_ctx *ctx, const char *name)
+mr_status
+mr_map_check_name(mr_ctx *ctx, const char *name)
 {
 	for (const char *c = name; *c; c++)
 		if ((unsigned char)*c < ' ')
@@ -338,15 +310,18 @@ static mr_status
 write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 {
 	const char *heights = mr_format(ctx, "%s-height.png", name);
-	const char *normals = mr_format(ctx, "%s-normal.png", name),
-		   *material = mr_format(ctx, "%s.mtl", name);
+	const char *normals = mr_format(ctx, "%s-normal.png", name), *file = mr_file_name(name);
 
-	MR_TRY(check_place(ctx, mr_file_name(name), material));
+	MR_TRY(mr_map_check_place(ctx, name));
 	MR_TRY(write_heights(ctx, m, heights));
 	found->clipped = count_rows(m);
 	MR_TRY(write_normals(ctx, m, normals));
 	found->turned = count_rows(m);
-	MR_TRY(write_material(ctx, m, mr_file_name(name), material));
+	/* disp and its option -mm (Wavefront, "Advanced Visualizer", appendix B2): a texel's value is times
+	 * the gain and plus the base.  norm is what programs of today add. */
+	MR_TRY(mr_map_write_material(ctx, name,
+	    mr_format(ctx, "Kd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm %s %s-height.png\n", file,
+		numbers(ctx, m->low, m->high - m->low), file)));
 	mr_tell(ctx, MR_ROUNDED, found->clipped, "heights of texels");
 	return MR_OK;
 }
@@ -357,17 +332,15 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 	mapping m;
 
 	mr_unmeasured(r, sizeof *r);
-	MR_TRY(check_name(ctx, name));
+	MR_TRY(mr_map_check_name(ctx, name));
 	MR_TRY(prepare(ctx, f, o, &m));
 	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
 		mr_lost(ctx, "base", 1, "the pose");
 	MR_TRY(write_files(ctx, &m, name, r));
-	lose_replaced(ctx, f);
-	MR_TRY(put_texcoords(ctx, f, &m.atlas));
+	MR_TRY(mr_map_put_material(ctx, f, "control", m.control.nf, mr_map_texcoords(ctx, &m.atlas), name));
 	/* Control's limit normals, among which those of the texels are interpolated. */
 	mr_frame_drop(f, "control", "corner_normal", 0);
 	MR_TRY(mr_layer_put(ctx, f, "control", "normal", m.domain.normal, m.control.nv));
-	MR_TRY(put_material(ctx, f, &m.atlas, mr_file_name(name)));
 	MR_TRY(mr_map_put_range(ctx, f, m.low, m.high));
 	r->level = m.atlas.level;
 	r->width = m.atlas.width;

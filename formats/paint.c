@@ -3,7 +3,6 @@
 
 #include "formats/image.h"
 #include "formats/materials.h"
-#include "formats/model.h"
 
 /* The coordinates of the corners, kept. */
 static void
@@ -119,17 +118,18 @@ dressed_before(const mr_gallery *g, const mr_panel *p)
 	return NULL;
 }
 
-static mr_status
-dress(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const mr_render_opts *opts, mr_subject *s)
+mr_status
+mr_paint_model(
+    mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const char *picture, const char *materials, mr_subject *s)
 {
 	mr_material *look;
 	size_t count;
 
 	if (m->texcoord || m->corner_texcoord)
 		keep_corners(keep, m, &s->paint.uv);
-	if (opts->texture)
-		return wear_one(ctx, keep, opts->texture, m->nf, &s->paint);
-	MR_TRY(mr_materials_find(ctx, m, opts->materials, &look, &count));
+	if (picture)
+		return wear_one(ctx, keep, picture, m->nf, &s->paint);
+	MR_TRY(mr_materials_find(ctx, m, materials, &look, &count));
 	wear_materials(ctx, keep, m, look, count, s);
 	return MR_OK;
 }
@@ -151,7 +151,7 @@ paint_panel(mr_ctx *ctx, mr_ctx *keep, const mr_gallery *g, mr_frame *f, const m
 	take_serials(f, p->layer, p->worn);
 	before = dressed_before(g, p);
 	if (!before)
-		return dress(ctx, keep, &m, opts, &p->subject);
+		return mr_paint_model(ctx, keep, &m, opts->texture, opts->materials, &p->subject);
 	p->subject.paint = before->subject.paint;
 	p->subject.color = before->subject.color;
 	p->subject.per_face = before->subject.per_face;

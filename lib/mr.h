@@ -886,6 +886,7 @@ typedef struct mr_map_result {
 	double low, high;
 	size_t clipped, turned; /* written: texels of heights out of the range, of normals away from control */
 	size_t between, seams;  /* read: vertices on no texel, and of other heights across a seam */
+	size_t texels, own;     /* baked: on faces; 1 in texture coordinates that were there, else 0 */
 } mr_map_result;
 
 /* Writes NAME-height.png, NAME-normal.png and NAME.mtl, which names them, and gives control a material,
@@ -895,6 +896,22 @@ MR_API mr_status mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const 
 
 /* Makes displacement of a picture of heights, by control's texture coordinates. */
 MR_API mr_status mr_map_read(mr_ctx *ctx, mr_frame *f, const char *picture, const mr_map_opts *opts,
+    mr_map_result *result) MR_WARN_UNUSED;
+
+/* What one surface looks like as pictures for another: mr-map --bake */
+
+typedef struct mr_bake_opts {
+	const char *layer;     /* of the target; NULL: control with a displacement, else as mr-export has it */
+	size_t side, gutter;   /* of the pictures, in texels; the latter around each chart */
+	const char *texture;   /* the source's picture; NULL: its materials' */
+	const char *materials; /* folder of their files */
+} mr_bake_opts;
+
+#define MR_BAKE_DEFAULTS MR_DEFAULTS(NULL, 2048, 4, NULL, ".")
+
+/* Writes NAME-color.png and NAME-normal.png, what the surface or cloud of frame `from` looks like, and
+ * NAME.mtl, which names them, and gives the layer a material, normals and texture coordinates for them. */
+MR_API mr_status mr_bake(mr_ctx *ctx, mr_frame *f, mr_frame *from, const char *name, const mr_bake_opts *opts,
     mr_map_result *result) MR_WARN_UNUSED;
 
 #ifdef __cplusplus

@@ -12,12 +12,15 @@ is_given(const mr_column *c)
 	return !info || info->kind == MR_MEAN || info->kind == MR_LABEL || !strcmp(c->name, "region");
 }
 
-/* mesh and base have one selection; texture coordinates of vertices that become one are those of corners. */
+/* mesh and base have one selection; texture coordinates of vertices that become one are those of corners;
+ * colors may have gone into a picture. */
 static bool
-is_there(const mr_frame *f, const mr_column *c)
+is_there(const mr_frame *before, const mr_frame *f, const mr_column *c)
 {
 	if (mr_layer_has(f, c->layer, c->name))
 		return true;
+	if (!strcmp(c->name, "color"))
+		return mr_layer_has(f, c->layer, "mtllib") && !mr_layer_has(before, c->layer, "mtllib");
 	if (!strcmp(c->name, "texcoord"))
 		return mr_layer_has(f, c->layer, "corner_texcoord");
 	return !strcmp(c->name, "region") &&
@@ -38,7 +41,7 @@ mr_judge_losses(mr_ctx *ctx, mr_frame *before, mr_frame *after)
 	MR_ENTER(ctx);
 	for (size_t i = 0; after->key && i < before->count; i++) {
 		const mr_column *c = &before->columns[i];
-		if (is_given(c) && mr_frame_has_layer(after, c->layer) && !is_there(after, c))
+		if (is_given(c) && mr_frame_has_layer(after, c->layer) && !is_there(before, after, c))
 			mr_found(ctx,
 			    &(mr_finding){ .kind = MR_LOST, .layer = c->layer, .what = c->name, .count = 1 });
 	}

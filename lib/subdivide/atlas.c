@@ -67,6 +67,14 @@ point(const mr_atlas *a, size_t i, size_t j)
 	return j * (2 * a->segments + 3 - j) / 2 + i;
 }
 
+uint32_t
+mr_atlas_vertex(const mr_atlas *a, size_t face, size_t i, size_t j)
+{
+	bool in = i + j <= a->segments;
+
+	return a->vertex[face * points(a) + (in ? point(a, i, j) : 0)];
+}
+
 void
 mr_atlas_fill(mr_ctx *ctx, const mr_tri *t, mr_atlas *a)
 {

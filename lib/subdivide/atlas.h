@@ -38,6 +38,9 @@ mr_status mr_atlas_plan(
 /* Finds the vertices.  t: the triangles of the level, by Loop's numbering; a->vertex: in the arena. */
 void mr_atlas_fill(mr_ctx *ctx, const mr_tri *t, mr_atlas *a);
 
+/* The vertex i steps towards corner 1 of a face and j towards corner 2; beyond the long side, any. */
+uint32_t mr_atlas_vertex(const mr_atlas *a, size_t face, size_t i, size_t j);
+
 /*
  * The texel in column x from the left and row y from the top.  In the gutter it has what lets bilinear
  * samples at the triangle be right: next to the long side what makes them linear in each triangle there, so

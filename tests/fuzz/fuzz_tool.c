@@ -294,11 +294,14 @@ static mr_status
 map(const job *j)
 {
 	mr_map_opts o = MR_MAP_DEFAULTS;
+	mr_bake_opts bake = MR_BAKE_DEFAULTS;
 	char name[64], path[64];
 
-	o.side = 128;
+	o.side = bake.side = 128;
 	MR_TRY(mr_map_write(j->ctx, j->f, path_of(name, ""), &o, NULL));
 	unlink(path_of(path, "-height.png"));
+	MR_TRY(mr_bake(j->ctx, j->f, j->f, path_of(name, ""), &bake, NULL));
+	unlink(path_of(path, "-color.png"));
 	unlink(path_of(path, "-normal.png"));
 	unlink(path_of(path, ".mtl"));
 	return MR_OK;

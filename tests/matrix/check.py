@@ -395,6 +395,11 @@ def pictures(before, after):
     must(os.path.getsize("map.mtl"), "an empty map.mtl")
 
 
+def baked(before, after):
+    png_file(before, "bake-normal.png")
+    must(os.path.getsize("bake.mtl"), "an empty bake.mtl")
+
+
 def page_column(frame, layer, name):
     """A column of the stream in a page, which may be the copy of another, or sums of steps (mr-view(1), The file)."""
     values = frame[layer][name] if layer in frame and name in frame[layer] else None

@@ -78,6 +78,7 @@ JOBS = [
     ("heights", "control", "mr-sample -n 2", c.heights),
     ("equalize", "heights", "mr-equalize --gain 1,0.5", c.heights),
     ("map", "heights", "mr-map -w map", c.pictures),
+    ("bake", "simplify", "mr-map --bake import.mrs -w bake --size 256", c.baked),
     ("rebuild", "heights", "mr-decode", c.heights),
     ("wrap", "cloud", "mr-shrinkwrap", c.manifold("control")),
     ("cube", "cloud", "mr-shrinkwrap -m cube -r 8", c.manifold("control")),

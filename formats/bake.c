@@ -1,0 +1,231 @@
+/* What a surface or a cloud looks like, as pictures in another's texture. */
+#include "render/bake.h"
+
+#include "base/options.h"
+#include "base/parallel.h"
+#include "base/text.h"
+#include "formats/bytes.h"
+#include "formats/map.h"
+#include "formats/paint.h"
+#include "formats/png.h"
+#include "formats/suffix.h"
+
+/* ---- the source ---- */
+
+static mr_v3 *
+unit_normals(mr_ctx *ctx, const mr_v3 *n, size_t count)
+{
+	mr_v3 *unit = MR_NEW(ctx, count, mr_v3);
+
+	for (size_t i = 0; i < count; i++)
+		unit[i] = mr_unit(n[i]);
+	return unit;
+}
+
+static mr_rgb *
+colors_of(mr_ctx *ctx, const mr_model *m)
+{
+	mr_rgb *color = MR_NEW(ctx, m->nv, mr_rgb);
+
+	for (size_t i = 0; i < m->nv; i++)
+		color[i] = (mr_rgb){ m->color[4 * i], m->color[4 * i + 1], m->color[4 * i + 2] };
+	return color;
+}
+
+static bool
+is_painted(const mr_subject *s)
+{
+	for (size_t f = 0; s->paint.of && s->paint.uv && f < s->mesh.nf; f++)
+		if (s->paint.of[f] != MR_NONE)
+			return true;
+	return false;
+}
+
+/* Pictures go before colours of vertices, and those before colours of materials. */
+static mr_status
+find_source(mr_ctx *ctx, mr_frame *f, const mr_bake_opts *o, mr_bake_source *s)
+{
+	const char *layer;
+	mr_model m;
+
+	MR_TRY(mr_layer_result(ctx, f, NULL, &layer));
+	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &s->look.mesh));
+	MR_TRY(mr_model_get(ctx, f, layer, &m));
+	s->look.normal = m.normal ? unit_normals(ctx, m.normal, m.nv) : NULL;
+	s->corner_normal = m.corner_normal ? unit_normals(ctx, m.corner_normal, 3 * m.nf) : NULL;
+	if (o->texture && !m.texcoord && !m.corner_texcoord)
+		return mr_fail(ctx, MR_EMISSING, "%s has no texture coordinates for %s", layer, o->texture);
+	if (m.nf && (o->texture || m.material))
+		MR_TRY(mr_paint_model(ctx, ctx, &m, o->texture, o->materials, &s->look));
+	if (m.color) {
+		s->look.color = colors_of(ctx, &m);
+		s->look.per_face = false;
+	}
+	s->colored = s->look.color || is_painted(&s->look);
+	return MR_OK;
+}
+
+/* ---- the target ---- */
+
+static const double *
+own_texcoords(mr_ctx *ctx, const mr_model *m)
+{
+	double *uv = MR_NEW(ctx, 6 * m->nf, double);
+
+	if (!m->texcoord && !m->corner_texcoord)
+		return NULL;
+	for (size_t c = 0; c < 3 * m->nf; c++) {
+		memcpy(uv + 2 * c, mr_corner_texcoord(m, c), 2 * sizeof *uv);
+		if (!(uv[2 * c] >= 0 && uv[2 * c] <= 1 && uv[2 * c + 1] >= 0 && uv[2 * c + 1] <= 1))
+			return NULL;
+	}
+	return uv;
+}
+
+/* The finest atlas that fits. */
+static mr_status
+make_atlas(mr_ctx *ctx, const mr_bake_opts *o, mr_bake_target *t)
+{
+	mr_atlas a, finer;
+	size_t level = 0;
+
+	MR_TRY(mr_atlas_plan(ctx, t->m.nf, 0, o->gutter, o->side, &a));
+	while (mr_atlas_plan(ctx, t->m.nf, level + 1, o->gutter, o->side, &finer) >= 0) {
+		a = finer;
+		level++;
+	}
+	t->uv = mr_map_texcoords(ctx, &a);
+	t->width = a.width;
+	t->height = a.height;
+	return MR_OK;
+}
+
+static mr_status
+find_texture(mr_ctx *ctx, const mr_model *m, const mr_bake_opts *o, mr_bake_target *t, mr_map_result *r)
+{
+	const double some = 1e-3; /* of the texels: what rounding leaves of a seam */
+	const double *uv = own_texcoords(ctx, m);
+
+	r->own = uv && mr_texture_overlap(ctx, &t->m, uv, o->side, o->side) < some;
+	if (!r->own)
+		return make_atlas(ctx, o, t);
+	t->uv = uv;
+	t->width = t->height = o->side;
+	return MR_OK;
+}
+
+/* The displaced surface, whose limit normals control has. */
+static mr_status
+find_fine(mr_ctx *ctx, mr_frame *f, mr_bake_target *t, const mr_v3 **normal)
+{
+	const double *height;
+	mr_domain d;
+	mr_v3 *p, *n;
+	size_t level;
+
+	MR_TRY(mr_displacement_get(ctx, f, &t->m, &level, &height));
+	MR_TRY(mr_domain_of(ctx, f, &t->m, level, &d));
+	t->fine = d.m;
+	t->grid = (mr_atlas){ .faces = t->m.nf, .level = level, .segments = (size_t)1 << level };
+	mr_atlas_fill(ctx, d.m.t, &t->grid);
+	p = MR_NEW(ctx, d.m.nv, mr_v3);
+	n = MR_NEW(ctx, d.m.nv, mr_v3);
+	mr_domain_displace(ctx, &d, height, 1, p);
+	t->fine.p = p;
+	mr_vertex_normals(ctx, &t->fine, NULL, n);
+	t->fine_normal = n;
+	*normal = d.normal;
+	return MR_OK;
+}
+
+/* The normals that the target is shaded with: its own, else those of its faces around, which it gets. */
+static mr_status
+find_normals(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m, mr_bake_target *t)
+{
+	const mr_v3 *vertex = m->normal, *corner = m->corner_normal;
+	mr_v3 *unit = MR_NEW(ctx, 3 * t->m.nf, mr_v3);
+
+	if (!strcmp(layer, "control") && mr_layer_has(f, "displacement", "height")) {
+		MR_TRY(find_fine(ctx, f, t, &vertex));
+		corner = NULL;
+	} else if (!vertex) {
+		mr_v3 *n = MR_NEW(ctx, t->m.nv, mr_v3);
+		mr_vertex_normals(ctx, &t->m, NULL, n);
+		vertex = n;
+	}
+	for (size_t c = 0; c < 3 * t->m.nf; c++)
+		unit[c] = mr_unit(
+		    corner && mr_norm2(corner[c]) > 0 ? corner[c] : vertex[t->m.t[c / 3].v[c % 3]]);
+	t->normal = unit;
+	if (corner || vertex == m->normal)
+		return MR_OK;
+	mr_frame_drop(f, layer, "corner_normal", 0);
+	return mr_layer_put(ctx, f, layer, "normal", vertex, t->m.nv);
+}
+
+/* ---- all ---- */
+
+static mr_status
+write_picture(mr_ctx *ctx, const mr_image *image, const char *name, const char *what)
+{
+	return image->pixel ? mr_png_write(ctx, mr_format(ctx, "%s-%s.png", name, what), image) : MR_OK;
+}
+
+static mr_status
+write_files(mr_ctx *ctx, const mr_baked *b, const char *name)
+{
+	const char *file = mr_file_name(name);
+
+	MR_TRY(mr_map_check_place(ctx, name));
+	MR_TRY(write_picture(ctx, &b->color, name, "color"));
+	MR_TRY(write_picture(ctx, &b->normal, name, "normal"));
+	return mr_map_write_material(ctx, name,
+	    mr_format(ctx, "Kd 1 1 1\n%s%s",
+		b->color.pixel ? mr_format(ctx, "map_Kd %s-color.png\n", file) : "",
+		b->normal.pixel ? mr_format(ctx, "norm %s-normal.png\n", file) : ""));
+}
+
+static mr_status
+bake(mr_ctx *ctx, mr_frame *f, mr_frame *from, const char *name, const mr_bake_opts *o, mr_map_result *r)
+{
+	const char *layer = o->layer;
+	mr_bake_source source = { 0 };
+	mr_bake_target target = { .gutter = o->gutter };
+	mr_baked baked;
+	mr_model m;
+
+	mr_unmeasured(r, sizeof *r);
+	MR_TRY(mr_check_number(ctx, "side", (double)o->side, 1, 32767));
+	MR_TRY(mr_check_number(ctx, "gutter", (double)o->gutter, 1, 256));
+	MR_TRY(mr_map_check_name(ctx, name));
+	if (!layer && mr_layer_has(f, "displacement", "height"))
+		layer = "control";
+	MR_TRY(mr_layer_result(ctx, f, layer, &layer));
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &target.m));
+	MR_TRY(mr_model_get(ctx, f, layer, &m));
+	MR_TRY(find_source(ctx, from, o, &source));
+	MR_TRY(find_texture(ctx, &m, o, &target, r));
+	MR_TRY(find_normals(ctx, f, layer, &m, &target));
+	if (!source.colored && !source.look.mesh.nf && !source.look.normal && !target.fine.nf)
+		return mr_fail(ctx, MR_EMISSING, "the source has neither colours nor normals");
+	MR_TRY(mr_bake_draw(ctx, &source, &target, &baked));
+	MR_TRY(write_files(ctx, &baked, name));
+	if (baked.color.pixel) /* viewers multiply the two */
+		mr_frame_drop(f, layer, "color", 0);
+	MR_TRY(mr_map_put_material(ctx, f, layer, target.m.nf, r->own ? NULL : target.uv, name));
+	r->width = target.width;
+	r->height = target.height;
+	r->texels = baked.texels;
+	r->turned = baked.turned;
+	return MR_OK;
+}
+
+mr_status
+mr_bake(mr_ctx *ctx, mr_frame *f, mr_frame *from, const char *name, const mr_bake_opts *opts,
+    mr_map_result *result)
+{
+	static const mr_bake_opts defaults = MR_BAKE_DEFAULTS;
+	mr_map_result r;
+
+	MR_ON_COPY(ctx, f, done, result, r, bake(ctx, &done, from, name, opts ? opts : &defaults, &r));
+}

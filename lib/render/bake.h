@@ -1,0 +1,55 @@
+/*
+ * bake.h -- what a surface or a cloud looks like, in a texture of another surface (Cignoni et al. 1998, "A
+ * general method for preserving attribute values on simplified meshes").
+ *
+ * Contract: texture coordinates are rounded to a 256th of a texel, as graphics cards do; then all that
+ * decides which face a texel is on is exact.  The same for every number of threads.
+ */
+#ifndef MR_RENDER_BAKE_H
+#define MR_RENDER_BAKE_H
+
+#include "render/raster.h"
+#include "subdivide/atlas.h"
+
+/* What is baked. */
+typedef struct mr_bake_source {
+	mr_subject look;            /* a surface, or points; normal: nv, of a surface, too, or NULL */
+	const mr_v3 *corner_normal; /* 3 nf, unit, zero where there is none; NULL: see look.normal */
+	bool colored;               /* look has colours or pictures */
+} mr_bake_source;
+
+/* What it is baked onto. */
+typedef struct mr_bake_target {
+	mr_mesh m;
+	const double *uv;             /* 6 nf: of the corners; v upwards */
+	const mr_v3 *normal;          /* 3 nf: of the corners, unit */
+	mr_mesh fine;                 /* the surface that m stands for; nf 0: m itself */
+	const mr_v3 *fine_normal;     /* unit */
+	mr_atlas grid;                /* its vertices on each face of m */
+	size_t width, height, gutter; /* of the texture */
+} mr_bake_target;
+
+typedef struct mr_baked {
+	mr_image color, normal; /* pixel NULL: of a source without */
+	size_t texels;          /* on faces */
+	size_t turned;          /* of them, those whose normal looks away from the target */
+} mr_baked;
+
+/*
+ * Each texel shows the source along the target's normal there, if that is at most twice as far as the nearest
+ * place, which it shows else; of points the mean of eight, weighted by distance (Franke, Nielson 1980).
+ * Normals are in the target's tangent space (Mikkelsen 2008, "Simulation of wrinkled surfaces revisited"); of
+ * points without normals they are those of `fine`.  Texels off the faces continue them for `gutter`; the rest
+ * has the mean colour.
+ */
+mr_status
+mr_bake_draw(mr_ctx *ctx, const mr_bake_source *s, const mr_bake_target *t, mr_baked *baked) MR_WARN_UNUSED;
+
+/* The share of texels on a face that another face has within it, too. */
+double mr_texture_overlap(mr_ctx *ctx, const mr_mesh *m, const double *uv, size_t width, size_t height);
+
+/* A unit normal in a tangent frame x T + y B + z N = n as a pixel; those that look away are flat, and
+ * *turned. */
+mr_rgb mr_normal_pixel(const mr_v3 frame[3], mr_v3 n, bool *turned);
+
+#endif
