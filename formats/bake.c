@@ -132,7 +132,7 @@ find_fine(mr_ctx *ctx, mr_frame *f, mr_bake_target *t, const mr_v3 **normal)
 	n = MR_NEW(ctx, d.m.nv, mr_v3);
 	mr_domain_displace(ctx, &d, height, 1, p);
 	t->fine.p = p;
-	mr_vertex_normals(ctx, &t->fine, NULL, n);
+	mr_vertex_normals(&t->fine, n);
 	t->fine_normal = n;
 	*normal = d.normal;
 	return MR_OK;
@@ -150,7 +150,7 @@ find_normals(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m, mr_
 		corner = NULL;
 	} else if (!vertex) {
 		mr_v3 *n = MR_NEW(ctx, t->m.nv, mr_v3);
-		mr_vertex_normals(ctx, &t->m, NULL, n);
+		mr_vertex_normals(&t->m, n);
 		vertex = n;
 	}
 	for (size_t c = 0; c < 3 * t->m.nf; c++)

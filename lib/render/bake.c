@@ -388,7 +388,7 @@ prepare_source(mr_ctx *ctx, baking *b)
 	mr_v3 *normal = s->mesh.nf && !s->normal ? MR_NEW(ctx, s->mesh.nv, mr_v3) : NULL;
 
 	if (normal)
-		mr_vertex_normals(ctx, &s->mesh, NULL, normal);
+		mr_vertex_normals(&s->mesh, normal);
 	b->normal = normal ? normal : s->normal;
 	if (!s->mesh.nf)
 		return mr_near_build(ctx, s->mesh.p, s->mesh.nv, &b->near);
