@@ -84,7 +84,8 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_map_result, between),
 	CMD_COUNTED(mr_map_result, seams),
 	CMD_COUNTED(mr_map_result, texels),
-	CMD_COUNTED(mr_map_result, own),
+	CMD_COUNTED(mr_map_result, charts),
+	CMD_MEASURED(mr_map_result, stretched),
 	{ 0 },
 };
 

@@ -9,6 +9,7 @@
 #include "formats/paint.h"
 #include "formats/png.h"
 #include "formats/suffix.h"
+#include "render/charts.h"
 
 /* ---- the source ---- */
 
@@ -82,35 +83,23 @@ own_texcoords(mr_ctx *ctx, const mr_model *m)
 	return uv;
 }
 
-/* The finest atlas that fits. */
-static mr_status
-make_atlas(mr_ctx *ctx, const mr_bake_opts *o, mr_bake_target *t)
-{
-	mr_atlas a, finer;
-	size_t level = 0;
-
-	MR_TRY(mr_atlas_plan(ctx, t->m.nf, 0, o->gutter, o->side, &a));
-	while (mr_atlas_plan(ctx, t->m.nf, level + 1, o->gutter, o->side, &finer) >= 0) {
-		a = finer;
-		level++;
-	}
-	t->uv = mr_map_texcoords(ctx, &a);
-	t->width = a.width;
-	t->height = a.height;
-	return MR_OK;
-}
-
+/* Texture coordinates of its own that serve, or charts. */
 static mr_status
 find_texture(mr_ctx *ctx, const mr_model *m, const mr_bake_opts *o, mr_bake_target *t, mr_map_result *r)
 {
 	const double some = 1e-3; /* of the texels: what rounding leaves of a seam */
 	const double *uv = own_texcoords(ctx, m);
+	double *made;
 
-	r->own = uv && mr_texture_overlap(ctx, &t->m, uv, o->side, o->side) < some;
-	if (!r->own)
-		return make_atlas(ctx, o, t);
-	t->uv = uv;
 	t->width = t->height = o->side;
+	r->charts = 0;
+	if (uv && mr_texture_overlap(ctx, &t->m, uv, o->side, o->side) < some) {
+		t->uv = uv;
+	} else {
+		MR_TRY(mr_charts(ctx, &t->m, o->side, o->gutter, &made, &r->charts));
+		t->uv = made;
+	}
+	r->stretched = mr_texture_stretched(&t->m, t->uv, 1);
 	return MR_OK;
 }
 
@@ -212,7 +201,7 @@ bake(mr_ctx *ctx, mr_frame *f, mr_frame *from, const char *name, const mr_bake_o
 	MR_TRY(write_files(ctx, &baked, name));
 	if (baked.color.pixel) /* viewers multiply the two */
 		mr_frame_drop(f, layer, "color", 0);
-	MR_TRY(mr_map_put_material(ctx, f, layer, target.m.nf, r->own ? NULL : target.uv, name));
+	MR_TRY(mr_map_put_material(ctx, f, layer, target.m.nf, r->charts ? target.uv : NULL, name));
 	r->width = target.width;
 	r->height = target.height;
 	r->texels = baked.texels;

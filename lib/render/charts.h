@@ -1,0 +1,26 @@
+/*
+ * charts.h -- texture coordinates for any surface: charts, and where they lie in a square.
+ *
+ * Contract: the faces of a chart look within 60 degrees of one direction, from where it is seen in parallel
+ * projection: nothing is longer than in the others' mean, or shorter, by more than twice.  The mesh may be
+ * non-manifold and of any orientation.
+ */
+#ifndef MR_RENDER_CHARTS_H
+#define MR_RENDER_CHARTS_H
+
+#include "mesh/mesh.h"
+
+/*
+ * Lays the faces out in `side` by `side` texels, with `gutter` around each chart.  uv: 6 nf, of the corners,
+ * in the arena.  MR_ERANGE where there is no room.
+ */
+mr_status mr_charts(
+    mr_ctx *ctx, const mr_mesh *m, size_t side, size_t gutter, double **uv, size_t *count) MR_WARN_UNUSED;
+
+/*
+ * The share of the area where a length is more than twice, or less than half, of what it is in the mean,
+ * which is sqrt(area of the texture / area of the surface).  aspect: the texture's width over its height.
+ */
+double mr_texture_stretched(const mr_mesh *m, const double *uv, double aspect);
+
+#endif
