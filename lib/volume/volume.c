@@ -97,12 +97,11 @@ useful_share(const mr_v3 *point, size_t n, double spacing, const mr_volume_opts 
 	return coarser > COARSER ? 1 / (coarser * coarser) : 1;
 }
 
-/* Turns all over where what they enclose is less than nothing (the divergence theorem): of 59 closed models
- * the sum is 0.07 of its terms' sizes of one, and 0.2 and more of the others. */
-static bool
-turn_outward(mr_volume_cloud *s)
+/* What the normals enclose (the divergence theorem), of the sizes of its terms: 0.07 of one of 59 closed
+ * models and 0.2 and more of the others. */
+static double
+enclosed_share(const mr_volume_cloud *s)
 {
-	static const double INWARD = -0.05;
 	mr_v3 c = { 0, 0, 0 };
 	double all = 0, sum = 0, size = 0;
 
@@ -116,22 +115,7 @@ turn_outward(mr_volume_cloud *s)
 		sum += term;
 		size += fabs(term);
 	}
-	if (sum >= INWARD * size)
-		return false;
-	for (size_t i = 0; i < s->n; i++)
-		s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
-	return true;
-}
-
-/* A body that is seen from within, as a room, has its inside where it is seen from. */
-static mr_status
-orient_by_sides(mr_ctx *ctx, volume *v)
-{
-	size_t untold;
-
-	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
-	v->found.turned = turn_outward(&v->s);
-	return MR_OK;
+	return size > 0 ? sum / size : 0;
 }
 
 /* The difference of the value from one side of each point's plane to the other. */
@@ -250,6 +234,45 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 	mr_mark_release(ctx, mark);
 	MR_TRY(orient_by_votes(ctx, v, w));
 	mark_seen(v);
+	return MR_OK;
+}
+
+static void
+drop_sides(mr_ctx *ctx, volume *v)
+{
+	mr_found(
+	    ctx, &(mr_finding){ .kind = MR_GUESSED,
+		     .layer = "points",
+		     .what = v->side.normals
+	                         ? "the normals of the points contradict their places, and are not used"
+	                         : "the places of the scanner contradict the points, and are not used" });
+	v->found.sided = 0;
+	v->side.toward = NULL;
+}
+
+/* A body that is seen from within, as a room, has its inside where it is seen from.  Sides of a body that
+ * enclose nothing, as of normals that all point upward, are none. */
+static mr_status
+orient(mr_ctx *ctx, volume *v, float *w)
+{
+	static const double LITTLE = 0.05;
+	size_t untold;
+	double share;
+
+	if (!v->side.toward)
+		return orient_by_flood(ctx, v, w);
+	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
+	share = enclosed_share(&v->s);
+	if (fabs(share) < LITTLE) {
+		MR_TRY(orient_by_flood(ctx, v, w));
+		if (!v->sheet)
+			drop_sides(ctx, v);
+		else
+			MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
+	}
+	v->found.turned = share <= -LITTLE;
+	for (size_t i = 0; v->found.turned && i < v->s.n; i++)
+		v->s.plane.normal[i] = mr_mul(-1, v->s.plane.normal[i]);
 	return MR_OK;
 }
 
@@ -455,7 +478,7 @@ fill_field(mr_ctx *ctx, volume *v, const mr_walls *w, float *f, float *level)
 	mr_grid_multigrid m;
 	double rise;
 
-	MR_TRY(v->side.toward ? orient_by_sides(ctx, v) : orient_by_flood(ctx, v, f));
+	MR_TRY(orient(ctx, v, f));
 	mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m);
 	solve_indicator(ctx, v, &m);
 	rise = half_rise(ctx, v, f);
@@ -556,18 +579,10 @@ take_sides(mr_ctx *ctx, const uint32_t *index, size_t places, const mr_outer_sid
 	for (size_t i = 0; i < v->s.n; i++)
 		toward[i] = sides->toward[index[i * places / v->s.n]];
 	judged = mr_volume_judge(&v->s, toward);
-	v->found.sided = 0;
-	if (!are_consistent(&judged, sides->normals)) {
-		mr_found(ctx,
-		    &(mr_finding){ .kind = MR_GUESSED,
-			.layer = "points",
-			.what = sides->normals
-		                    ? "the normals of the points contradict their places, and are not used"
-		                    : "the places of the scanner contradict the points, and are not used" });
-		return;
-	}
 	v->found.sided = judged.told;
 	v->side = (mr_outer_sides){ toward, sides->normals };
+	if (!are_consistent(&judged, sides->normals))
+		drop_sides(ctx, v);
 }
 
 /* v->s of what counts of n points; *places: how many these are. */
