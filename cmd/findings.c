@@ -5,7 +5,8 @@
 
 /*
  * In a sentence {n} is the count, {of} " of 12" where that is known, {s} the plural of what is counted,
- * {layer}, {what}, {pct} the value in percent, {limit}; {at} " at vertex 5 (x, y, z)".
+ * {layer}, {what}, {pct} the value in percent, {limit}; {left}: what a repair leaves, of {value} and {limit};
+ * {at} " at vertex 5 (x, y, z)".
  */
 typedef struct entry {
 	verdict worst; /* what a frame with it is at most */
@@ -50,7 +51,7 @@ static const entry table[MR_FINDING_KINDS] = {
 	    "A file can be read in two ways, and one was taken." },
 	[MR_MISSING] = { VERDICT_GOOD, 0, "{what} is missing", "",
 	    "A file that another file names is missing." },
-	[MR_REPAIRED] = { VERDICT_GOOD, 0, "repaired: {what} ({n})", "",
+	[MR_REPAIRED] = { VERDICT_GOOD, 0, "repaired: {what}", "{left}",
 	    "Faces or vertices were changed to make an oriented manifold, or joined." },
 	[MR_UNCERTAIN] = { VERDICT_POOR, 0, "the topology is uncertain{what}{at}", "",
 	    "Points are too few or too noisy to tell handles and openings." },
@@ -187,6 +188,11 @@ put_word(const mr_kept_finding *k, const char *name, char *text, size_t size)
 		snprintf(text, size, "%.3g", 100 * f->value);
 	else if (!strncmp(name, "{limit}", 7))
 		snprintf(text, size, "%.3g", f->limit);
+	else if (!strncmp(name, "{left}", 6))
+		snprintf(text, size, "%s%s%s",
+		    f->value > 0 ? "--outward turns parts that are inside out" : "",
+		    f->value > 0 && f->limit > 0 ? ", " : "",
+		    f->limit > 0 ? "mr-fill closes openings, which stay" : "");
 	else if (!strncmp(name, "{at}", 4))
 		add_place(f, text, size);
 }

@@ -10,9 +10,10 @@ static const cmd_opt table[] = {
 	{ 'f', "format", CMD_TEXT, &opts.format, 0, 0, "FORMAT",
 	    "read the files as this format (default: by their bytes)", NULL },
 	{ 0, "points", CMD_FLAG, &opts.points, 0, 0, NULL, "leave out the faces", NULL },
-	{ 0, "weld", CMD_LENGTH, CMD_LENGTH_OF(mr_import_opts, opts, weld), 0, 1e300, "EPS",
+	{ 0, "weld", CMD_LENGTH, CMD_LENGTH_OF(mr_import_opts, opts, weld), 0, 1e300, "auto|EPS",
 	    "join vertices no further apart (default: none is joined)", NULL },
 	{ 0, "repair", CMD_FLAG, &opts.repair, 0, 0, NULL, "make an oriented manifold of the faces", NULL },
+	{ 0, "outward", CMD_FLAG, &opts.outward, 0, 0, NULL, "turn parts that are inside out", NULL },
 	{ 0 },
 };
 
@@ -24,6 +25,7 @@ check(cmd *c)
 	opts.layer = c->layer;
 	opts.welds = cmd_given(c, "weld");
 	MR_TRY(cmd_idle(c, "repair", opts.points, "with --points, which leaves no face"));
+	MR_TRY(cmd_idle(c, "outward", opts.points, "with --points, which leaves no face"));
 	if (c->operand_count == 0 && isatty(STDIN_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "stdin is a terminal: pipe a file in, or name a FILE");
 	MR_TRY(cmd_layer_name(c, "--layer", c->layer));

@@ -81,13 +81,18 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 	return MR_OK;
 }
 
-/* A number, or hundredths with a % behind it: *relative. */
+/* A number, or hundredths with a % behind it: *relative; -1 for "auto" where that is allowed. */
 static mr_status
 parse_share(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text, bool *relative)
 {
 	char *end;
 	double x;
 
+	*relative = false;
+	if (!strncmp(o->metavar, "auto|", 5) && !strcmp(text, "auto")) {
+		*(double *)o->value = -1;
+		return MR_OK;
+	}
 	if (!number_at(text, &end, &x) || end[*end == '%'])
 		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
 	*relative = *end == '%';

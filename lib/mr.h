@@ -248,12 +248,13 @@ typedef struct mr_import_opts {
 	const char *layer;  /* NULL: mesh, without faces points */
 	bool points;        /* leave out the faces */
 	bool repair;        /* make an oriented manifold of the faces */
+	bool outward;       /* turn parts that are inside out */
 	bool welds;         /* join vertices no further apart than weld */
-	double weld;
+	double weld;        /* below 0: found from the boundary, whose vertices alone are joined */
 	bool weld_relative; /* weld is a share of the bounding box's diagonal */
 } mr_import_opts;
 
-#define MR_IMPORT_DEFAULTS MR_DEFAULTS(NULL, NULL, false, false, false, 0, false)
+#define MR_IMPORT_DEFAULTS MR_DEFAULTS(NULL, NULL, false, false, false, false, 0, false)
 
 /* What was read; what of the file could not be kept is reported as findings. */
 typedef struct mr_import_result {

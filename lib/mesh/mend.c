@@ -1,15 +1,8 @@
 /* Rows of vertices, faces and corners follow those that are left. */
 #include "mesh/mend.h"
 
-#include "mesh/repair.h"
+#include "mesh/loops.h"
 #include "mesh/subset.h"
-
-static void
-report(mr_ctx *ctx, size_t count, const char *what)
-{
-	if (count)
-		mr_found(ctx, &(mr_finding){ .kind = MR_REPAIRED, .what = what, .count = count });
-}
 
 /* ---- weld ---- */
 
@@ -31,17 +24,19 @@ count_others(const mr_column *c, const uint32_t *map, const uint32_t *of)
 	return n;
 }
 
-/* The values of vertices as those of the corners there. */
-static mr_status
-to_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_column *vertex, const char *name)
+mr_status
+mr_layer_to_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const char *name)
 {
-	size_t width = vertex->shape.components;
-	const double *x = vertex->data;
-	double *corner = MR_NEW(ctx, 3 * width * m->nf, double);
+	mr_column vertex = *mr_frame_find(f, m->name, name);
+	const char *to = mr_format(ctx, "corner_%s", name);
+	size_t bytes = vertex.shape.components * sizeof(double);
+	char *corner = mr_alloc(ctx, 3 * m->nf, bytes);
 
+	MR_TRY(mr_column_decode(ctx, &vertex));
 	for (size_t c = 0; c < 3 * m->nf; c++)
-		memcpy(corner + width * c, x + width * m->t[c / 3].v[c % 3], width * sizeof *x);
-	return mr_layer_put(ctx, f, m->name, name, corner, m->nf);
+		memcpy(corner + bytes * c, (const char *)vertex.data + bytes * m->t[c / 3].v[c % 3], bytes);
+	mr_frame_drop(f, m->name, name, 0);
+	return mr_layer_put(ctx, f, m->name, to, corner, m->nf);
 }
 
 /* What differs between vertices that become one is the corners' from now on, or the first vertex's counts. */
@@ -56,11 +51,9 @@ keep_differences(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *map
 			continue;
 		MR_TRY(mr_column_decode(ctx, c));
 		others = count_others(c, map, of);
-		if (others && m->nf && (normal || texcoord)) {
-			mr_column own = *c;
-			mr_frame_drop(f, m->name, normal ? "normal" : "texcoord", 0);
-			MR_TRY(to_corners(ctx, f, m, &own, normal ? "corner_normal" : "corner_texcoord"));
-		} else
+		if (others && m->nf && (normal || texcoord))
+			MR_TRY(mr_layer_to_corners(ctx, f, m, normal ? "normal" : "texcoord"));
+		else
 			mr_lost(ctx, NULL, others, mr_format(ctx, "%s of joined vertices", c->name));
 	}
 	return MR_OK;
@@ -87,8 +80,30 @@ rename_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *map, do
 	return mr_layer_put(ctx, f, m->name, "triangles", t, kept);
 }
 
+/* mr_weld of those that may. */
+static void
+weld_some(mr_ctx *ctx, const mr_mesh *m, double eps, const bool *may, uint32_t *map, size_t *count)
+{
+	uint32_t *own = MR_NEW(ctx, m->nv, uint32_t), *as = MR_NEW(ctx, m->nv, uint32_t);
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	size_t n = 0, k = 0;
+
+	for (size_t i = 0; i < m->nv; i++)
+		if (may[i])
+			p[n++] = m->p[i];
+	mr_weld(ctx, p, n, eps, own, &n);
+	memset(as, 0xff, m->nv * sizeof *as);
+	*count = 0;
+	for (size_t i = 0; i < m->nv; i++) {
+		uint32_t *number = may[i] ? &as[own[k++]] : &map[i];
+		if (!may[i] || *number == MR_NONE)
+			*number = (uint32_t)(*count)++;
+		map[i] = *number;
+	}
+}
+
 mr_status
-mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, size_t *joined)
+mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, const bool *may, size_t *joined)
 {
 	uint32_t *map, *of;
 	size_t n = 0, next = 0;
@@ -97,7 +112,10 @@ mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, size_t *j
 	MR_TRY(mr_layer_surface_or_points_of_any_size(ctx, f, layer, &m));
 	map = MR_NEW(ctx, m.nv, uint32_t);
 	of = MR_NEW(ctx, m.nv, uint32_t);
-	mr_weld(ctx, m.p, m.nv, eps, map, &n);
+	if (may)
+		weld_some(ctx, &m, eps, may, map, &n);
+	else
+		mr_weld(ctx, m.p, m.nv, eps, map, &n);
 	for (size_t i = 0; i < m.nv; i++)
 		if (map[i] == next)
 			of[next++] = (uint32_t)i;
@@ -108,29 +126,6 @@ mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, size_t *j
 }
 
 /* ---- repair ---- */
-
-/* One finding, whose words have the counts. */
-static void
-report_repair(mr_ctx *ctx, const mr_repair_report *r)
-{
-	const struct {
-		size_t count;
-		const char *what;
-	} lines[] = { { r->degenerate, "degenerate faces" }, { r->duplicate, "duplicate faces" },
-		{ r->isolated, "isolated vertices" }, { r->split_edges, "edges split" },
-		{ r->split_vertices, "vertices split" }, { r->flipped, "faces turned" },
-		{ r->cut_edges, "edges cut" } };
-	char what[256] = "";
-	size_t n = 0, all = 0;
-
-	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-		all += lines[i].count;
-		if (lines[i].count)
-			n += (size_t)snprintf(what + n, sizeof what - n, "%s%zu %s", n ? ", " : "",
-			    lines[i].count, lines[i].what);
-	}
-	report(ctx, all, what);
-}
 
 /* What corners have, in the order of the corners that the faces have now; normals of a file that is not
  * oriented alike say nothing. */
@@ -158,17 +153,17 @@ turn_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *flipped)
 }
 
 mr_status
-mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer)
+mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer, mr_repair_report *r)
 {
 	const uint32_t *vertex_of, *face_of;
-	mr_repair_report r;
 	mr_mesh in, out;
+	mr_loops loops;
 	bool *flipped;
 
-	if (!mr_layer_has(f, layer, "triangles"))
-		return MR_OK;
 	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &in));
-	MR_TRY(mr_repair(ctx, &in, &out, &vertex_of, &face_of, &r));
+	MR_TRY(mr_repair(ctx, &in, &out, &vertex_of, &face_of, r));
+	mr_loops_find(ctx, &out, &loops);
+	r->loops = loops.count;
 	out.name = layer;
 	flipped = MR_NEW(ctx, out.nf, bool);
 	for (size_t i = 0; i < out.nf; i++)
@@ -177,8 +172,21 @@ mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer)
 	MR_TRY(mr_layer_gather(ctx, f, layer, 'f', face_of, out.nf));
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", out.p, out.nv));
 	MR_TRY(mr_layer_put(ctx, f, layer, "triangles", out.t, out.nf));
-	if (r.flipped)
-		MR_TRY(turn_corners(ctx, f, &out, flipped));
-	report_repair(ctx, &r);
-	return MR_OK;
+	return r->flipped ? turn_corners(ctx, f, &out, flipped) : MR_OK;
+}
+
+mr_status
+mr_layer_turn(mr_ctx *ctx, mr_frame *f, const char *layer, const bool *turned)
+{
+	mr_tri *t;
+	mr_mesh m;
+
+	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &m));
+	t = MR_NEW(ctx, m.nf, mr_tri);
+	for (size_t i = 0; i < m.nf; i++) {
+		const uint32_t *v = m.t[i].v;
+		t[i] = (mr_tri){ { v[0], v[turned[i] ? 2 : 1], v[turned[i] ? 1 : 2] } };
+	}
+	MR_TRY(mr_layer_put(ctx, f, layer, "triangles", t, m.nf));
+	return turn_corners(ctx, f, &m, turned);
 }

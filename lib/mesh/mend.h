@@ -3,15 +3,25 @@
 #define MR_MESH_MEND_H
 
 #include "mesh/layers.h"
+#include "mesh/repair.h"
+
+/* What vertices have becomes what corners have: texcoord or normal. */
+mr_status mr_layer_to_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const char *name) MR_WARN_UNUSED;
 
 /*
  * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes, but for
  * texture coordinates and normals, which become those of corners where they differ.  Faces that lose a corner
- * by it go; those that had a vertex twice before stay.  joined: how many went.
+ * by it go; those that had a vertex twice before stay.  may: which vertices may join others; NULL: all.
+ * joined: how many went.
  */
-mr_status mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, size_t *joined) MR_WARN_UNUSED;
+mr_status mr_layer_weld(
+    mr_ctx *ctx, mr_frame *f, const char *layer, double eps, const bool *may, size_t *joined) MR_WARN_UNUSED;
 
-/* mr_repair, attributes carried along.  Points stay as they are.  Reports what was done. */
-mr_status mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer) MR_WARN_UNUSED;
+/* mr_repair of a layer of faces, attributes carried along. */
+mr_status
+mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer, mr_repair_report *report) MR_WARN_UNUSED;
+
+/* Turns these faces over; normals go. */
+mr_status mr_layer_turn(mr_ctx *ctx, mr_frame *f, const char *layer, const bool *turned) MR_WARN_UNUSED;
 
 #endif

@@ -225,15 +225,17 @@ turn(surface *s, uint32_t f)
 /* The faces of a part agree: they are as most of them are, so that a hollow stays one; of a closed part where
  * that is less than three quarters they come outside out. */
 static void
-orient_part(const surface *s, const uint32_t *face, size_t n, bool closed, bool *turned)
+orient_part(surface *s, const uint32_t *face, size_t n, bool closed, bool *turned)
 {
+	double six = closed ? volume(s, face, n, turned) : 0;
 	size_t count = 0;
+	bool stays;
 
 	for (size_t k = 0; k < n; k++)
 		count += turned[face[k]];
-	if (closed && 4 * count >= n && 4 * count <= 3 * n ? volume(s, face, n, turned) >= 0 : 2 * count <= n)
-		return;
-	for (size_t k = 0; k < n; k++)
+	stays = closed && 4 * count >= n && 4 * count <= 3 * n ? six >= 0 : 2 * count <= n;
+	s->r.inward += stays ? six < 0 : six > 0;
+	for (size_t k = 0; k < n && !stays; k++)
 		turned[face[k]] = !turned[face[k]];
 }
 

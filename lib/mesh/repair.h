@@ -25,6 +25,8 @@ typedef struct mr_repair_report {
 	size_t flipped;        /* faces turned over */
 	size_t cut_edges; /* edges cut because the surface is one-sided there, or to keep copies of an edge
 	                     apart */
+	size_t inward;    /* closed parts whose outside is within: hollows, or inside out */
+	size_t loops;     /* of the boundary that is left */
 } mr_repair_report;
 
 /*

@@ -105,7 +105,7 @@ mr_layer_join_seams(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 		t[h / 3].v[h % 3] = map[m->t[h / 3].v[h % 3]];
 	if (n == m->nv || mr_topology_build(ctx, &(mr_mesh){ m->name, m->p, t, n, m->nf }, &topo) != MR_OK)
 		return MR_OK;
-	MR_TRY(mr_layer_weld(ctx, f, m->name, eps, &n));
+	MR_TRY(mr_layer_weld(ctx, f, m->name, eps, NULL, &n));
 	return mr_layer_mesh(ctx, f, m->name, m);
 }
 
