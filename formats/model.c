@@ -366,6 +366,7 @@ mend(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_import_opts *o, doubl
 	double eps = fmax(o->weld, 0) * unit;
 	const bool *may = NULL;
 	bool faces = mr_layer_has(f, layer, "triangles");
+	mr_frame before;
 	mr_mesh m;
 
 	if (o->welds && o->weld < 0 && faces) {
@@ -375,8 +376,14 @@ mend(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_import_opts *o, doubl
 	if (o->welds)
 		MR_TRY(mr_layer_weld(ctx, f, layer, eps, may, &joined));
 	if (o->repair && faces) {
-		MR_TRY(mr_layer_stitch(ctx, f, layer, &stitched));
+		mr_frame_copy(ctx, f, &before);
 		MR_TRY(mr_layer_repair(ctx, f, layer, &r));
+		if (r.open)
+			MR_TRY(mr_layer_stitch(ctx, &before, layer, &stitched));
+		if (stitched)
+			*f = before;
+		if (stitched)
+			MR_TRY(mr_layer_repair(ctx, f, layer, &r));
 	}
 	add_deed(&done, joined,
 	    eps > 0 && may ? mr_format(ctx, "vertices joined within %.3g", eps) : "vertices joined");
@@ -392,12 +399,12 @@ mend(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_import_opts *o, doubl
 		MR_TRY(turn_outward(ctx, f, layer, o->outward, &inward));
 	add_deed(&done, o->outward ? inward : 0, "parts turned outward");
 	inward = o->outward ? 0 : inward;
-	if (done.count || r.loops || inward)
+	if (done.count || r.open || inward)
 		mr_found(ctx, &(mr_finding){ .kind = MR_REPAIRED,
 				  .what = done.count ? done.words.s : "nothing",
 				  .count = done.count,
 				  .value = (double)inward,
-				  .limit = (double)r.loops });
+				  .limit = (double)r.open });
 	return MR_OK;
 }
 

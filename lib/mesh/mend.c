@@ -1,7 +1,6 @@
 /* Rows of vertices, faces and corners follow those that are left. */
 #include "mesh/mend.h"
 
-#include "mesh/loops.h"
 #include "mesh/subset.h"
 
 /* ---- weld ---- */
@@ -157,13 +156,10 @@ mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer, mr_repair_report *r
 {
 	const uint32_t *vertex_of, *face_of;
 	mr_mesh in, out;
-	mr_loops loops;
 	bool *flipped;
 
 	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &in));
 	MR_TRY(mr_repair(ctx, &in, &out, &vertex_of, &face_of, r));
-	mr_loops_find(ctx, &out, &loops);
-	r->loops = loops.count;
 	out.name = layer;
 	flipped = MR_NEW(ctx, out.nf, bool);
 	for (size_t i = 0; i < out.nf; i++)

@@ -156,6 +156,16 @@ cut(surface *s, uint32_t h)
 	s->r.cut_edges++;
 }
 
+/* What a face adds to six times the volume of its part, seen from o. */
+static double
+below(const surface *s, uint32_t f, mr_v3 o)
+{
+	const uint32_t *v = s->t[f].v;
+	const mr_v3 *p = s->m->p;
+
+	return mr_dot(mr_sub(p[v[0]], o), mr_cross(mr_sub(p[v[1]], o), mr_sub(p[v[2]], o)));
+}
+
 /*
  * Six times the volume below the faces, seen from the first one: its sign tells inside from outside of a
  * closed component. `turned`: as the faces will be.
@@ -166,23 +176,19 @@ volume(const surface *s, const uint32_t *face, size_t n, const bool *turned)
 	mr_v3 o = s->m->p[s->t[face[0]].v[0]];
 	double sum = 0;
 
-	for (size_t i = 0; i < n; i++) {
-		const uint32_t *v = s->t[face[i]].v;
-		double six = mr_dot(
-		    mr_sub(s->m->p[v[0]], o), mr_cross(mr_sub(s->m->p[v[1]], o), mr_sub(s->m->p[v[2]], o)));
-		sum += turned[face[i]] ? -six : six;
-	}
+	for (size_t i = 0; i < n; i++)
+		sum += turned[face[i]] ? -below(s, face[i], o) : below(s, face[i], o);
 	return sum;
 }
 
 /* Visits the component of queue[0]; turned[] is decided against that face, what cannot agree is cut. */
 static size_t
-spread(surface *s, uint32_t *queue, bool *seen, bool *turned, bool *closed)
+spread(surface *s, uint32_t *queue, uint32_t number, uint32_t *part, bool *turned, bool *closed)
 {
 	size_t n = 1;
 
 	*closed = true;
-	seen[queue[0]] = true;
+	part[queue[0]] = number;
 	for (size_t i = 0; i < n; i++)
 		for (uint32_t h = 3 * queue[i]; h < 3 * queue[i] + 3; h++) {
 			uint32_t g = s->pair[h], f;
@@ -193,8 +199,8 @@ spread(surface *s, uint32_t *queue, bool *seen, bool *turned, bool *closed)
 			}
 			f = g / 3;
 			same = from(s, h) == from(s, g); /* both run the same way: one must turn */
-			if (!seen[f]) {
-				seen[f] = true;
+			if (part[f] == MR_NONE) {
+				part[f] = number;
 				turned[f] = turned[queue[i]] != same;
 				queue[n++] = f;
 			} else if ((turned[f] != turned[queue[i]]) != same) {
@@ -225,38 +231,55 @@ turn(surface *s, uint32_t f)
 /* The faces of a part agree: they are as most of them are, so that a hollow stays one; of a closed part where
  * that is less than three quarters they come outside out. */
 static void
-orient_part(surface *s, const uint32_t *face, size_t n, bool closed, bool *turned)
+orient_part(const surface *s, const uint32_t *face, size_t n, bool closed, bool *turned)
 {
-	double six = closed ? volume(s, face, n, turned) : 0;
 	size_t count = 0;
-	bool stays;
 
 	for (size_t k = 0; k < n; k++)
 		count += turned[face[k]];
-	stays = closed && 4 * count >= n && 4 * count <= 3 * n ? six >= 0 : 2 * count <= n;
-	s->r.inward += stays ? six < 0 : six > 0;
-	for (size_t k = 0; k < n && !stays; k++)
+	if (closed && 4 * count >= n && 4 * count <= 3 * n ? volume(s, face, n, turned) >= 0 : 2 * count <= n)
+		return;
+	for (size_t k = 0; k < n; k++)
 		turned[face[k]] = !turned[face[k]];
+}
+
+/* Counts the closed parts of less than no volume.  In the order of the faces, which is much faster than that
+ * of a walk. */
+static void
+count_inward(surface *s, const uint32_t *part, const uint32_t *closed, size_t parts)
+{
+	double *six = MR_NEW_ZERO(s->ctx, parts, double);
+
+	for (uint32_t f = 0; f < s->nf; f++)
+		if (closed[part[f]] != MR_NONE)
+			six[part[f]] += below(s, f, s->m->p[s->t[closed[part[f]]].v[0]]);
+	for (size_t i = 0; i < parts; i++)
+		s->r.inward += six[i] < 0;
 }
 
 static void
 orient(surface *s)
 {
 	MR_SCOPE(s->ctx);
-	bool *seen = MR_NEW_ZERO(s->ctx, s->nf, bool), *turned = MR_NEW_ZERO(s->ctx, s->nf, bool);
-	uint32_t *face = MR_NEW(s->ctx, s->nf, uint32_t);
-	bool closed;
+	uint32_t *part = MR_NEW(s->ctx, s->nf, uint32_t), *face = MR_NEW(s->ctx, s->nf, uint32_t),
+		 *first = NULL;
+	bool *turned = MR_NEW_ZERO(s->ctx, s->nf, bool), closed;
+	size_t parts = 0, room = 0;
 
+	memset(part, 0xff, s->nf * sizeof *part);
 	for (uint32_t f = 0; f < s->nf; f++)
-		if (!seen[f]) {
+		if (part[f] == MR_NONE) {
 			size_t n;
 			face[0] = f;
-			n = spread(s, face, seen, turned, &closed);
+			n = spread(s, face, (uint32_t)parts, part, turned, &closed);
 			orient_part(s, face, n, closed, turned);
+			MR_RESERVE(s->ctx, first, parts, 1, &room);
+			first[parts++] = closed ? f : MR_NONE; /* of an open one no inside is known */
 		}
 	for (uint32_t f = 0; f < s->nf; f++)
 		if (turned[f])
 			turn(s, f);
+	count_inward(s, part, first, parts);
 }
 
 /* ---- vertices ---- */
@@ -343,6 +366,8 @@ number(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 		}
 	for (uint32_t h = 0; h < n; h++)
 		s->t[h / 3].v[h % 3] = name[s->root[h]];
+	for (uint32_t h = 0; h < n; h++)
+		s->r.open += s->pair[h] == MR_NONE;
 	s->r.isolated = s->m->nv - used;
 	s->r.split_vertices = nv - used;
 	*out = (mr_mesh){ .name = s->m->name, .p = p, .t = s->t, .nv = nv, .nf = s->nf };

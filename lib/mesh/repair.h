@@ -26,7 +26,7 @@ typedef struct mr_repair_report {
 	size_t cut_edges; /* edges cut because the surface is one-sided there, or to keep copies of an edge
 	                     apart */
 	size_t inward;    /* closed parts whose outside is within: hollows, or inside out */
-	size_t loops;     /* of the boundary that is left */
+	size_t open;      /* edges of the boundary that is left */
 } mr_repair_report;
 
 /*
