@@ -86,7 +86,7 @@ typedef struct mr_v3 { double x, y, z; } mr_v3;
 	X(LOST, "lost") X(STALE, "stale") X(ROUNDED, "rounded") X(GUESSED, "guessed") X(MISSING, "missing") \
 	X(REPAIRED, "repaired") \
 	X(UNCERTAIN, "uncertain") X(UNREACHED, "unreached") X(BARE, "bare") \
-	X(ROUGH, "rough") X(FILLED, "filled") X(INEXACT, "inexact") X(UNHELD, "unheld") X(HANDLE, "handle") \
+	X(ROUGH, "rough") X(FILLED, "filled") X(INEXACT, "inexact") X(UNHELD, "unheld") X(UNALIGNED, "unaligned") \
 	X(LIMIT, "limit") X(LAYER, "layer")
 
 #define MR_FINDING_KIND(kind, name) MR_##kind,
@@ -834,6 +834,30 @@ MR_API mr_status mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, con
  * caller's. */
 MR_API mr_status mr_compare_vertices(
     mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, double *distance) MR_WARN_UNUSED;
+
+/* One onto another: mr-align */
+
+typedef struct mr_align_opts {
+	bool scale;        /* it may grow or shrink */
+	const char *from;  /* layer that is matched, of both; NULL: the one worked on last */
+	const char *layer; /* that moves alone; NULL: all of the frame */
+} mr_align_opts;
+
+#define MR_ALIGN_DEFAULTS MR_DEFAULTS(false, NULL, NULL)
+
+typedef struct mr_align_result {
+	double map[12];  /* 3x4, row by row: what moves the frame */
+	double scale;
+	double overlap;  /* share of the samples that have a partner on the reference */
+	double residual; /* root mean square distance of those from its planes */
+	double score, second; /* how much of it lies on the reference, 0 to 1; of the next best place that is another */
+	bool found;           /* else map is the identity, and the frame stays */
+} mr_align_result;
+
+/* Moves the frame to where it fits the reference: coarse by features and principal axes, fine by points to planes.
+ * The motion is the column `transform` of no layer.  Where none fits the frame stays, and is found unaligned. */
+MR_API mr_status mr_align_frame(mr_ctx *ctx, mr_frame *f, mr_frame *reference, const mr_align_opts *opts,
+    mr_align_result *result) MR_WARN_UNUSED;
 
 /*
  * Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.

@@ -214,7 +214,7 @@ mr_handles_pose(
 	row->map[handle] = mr_compose(&t, &row->map[handle]);
 	a = mr_affine_linear(&row->map[handle]);
 	if (mr_mat3_determinant(&a) < 0)
-		mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
+		mr_found(ctx, &(mr_finding){ .kind = MR_UNHELD,
 				  .what = "a handle is mirrored: what goes with it comes inside out" });
 	row->turn[handle] = mr_rotation_log(&a, mr_add(row->turn[handle], turn_of(pose, share)));
 	return MR_OK;

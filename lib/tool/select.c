@@ -43,7 +43,7 @@ first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool reset, uint32_t *
 static void
 look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 {
-	mr_finding found = { .kind = MR_HANDLE,
+	mr_finding found = { .kind = MR_UNHELD,
 		.layer = m->name,
 		.what = "a handle meets fixed vertices with nothing free between: free a ring around it, or "
 			"select "

@@ -52,6 +52,7 @@ try mr-normals -j1 points.mrs
 try mr-split -j1 mesh.mrs
 try mr-crop -j1 --keep above:y,0.5 mesh.mrs
 try mr-fill -j1 --loops 1 cropped.mrs
+try mr-align -j1 cropped.mrs mesh.mrs
 try mr-transform -j1 --rotate 0,0,1,30 solved.mrs
 try mr-map -j1 -w made/x displaced.mrs
 try mr-render -j1 --size 64x64 -i mesh.mrs made/x.png

@@ -212,6 +212,16 @@ fill(const job *j)
 }
 
 static mr_status
+align(const job *j)
+{
+	mr_align_opts o = MR_ALIGN_DEFAULTS;
+
+	o.scale = j->way % 2;
+	o.from = j->way % 3 ? NULL : "points";
+	return mr_align_frame(j->ctx, j->f, j->f, &o, NULL);
+}
+
+static mr_status
 equalize(const job *j)
 {
 	static const double gain[] = { 1, 0.5 };
@@ -315,7 +325,7 @@ static const struct tool {
 	{ "mr-subdivide", subdivide }, { "mr-simplify", simplify }, { "mr-fit", fit },
 	{ "mr-sample", sample }, { "mr-shrinkwrap", wrap }, { "mr-normals", normals },
 	{ "mr-transform", transform }, { "mr-crop", crop }, { "mr-split", split },
-	{ "mr-fill", fill },
+	{ "mr-fill", fill }, { "mr-align", align },
 	{ "mr-equalize", equalize }, { "mr-export", export }, { "mr-render", render }, { "mr-view", view },
 	{ "mr-info", info }, { "mr-compare", compare }, { "mr-map", map } };
 

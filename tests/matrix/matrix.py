@@ -50,6 +50,7 @@ JOBS = [
     ("transform", "import", "mr-transform --scale 2", c.doubled),
     ("crop", "import", "mr-crop --keep above:y,0.5", c.upper_half),
     ("fill", "import", "mr-fill", c.first_rows),
+    ("align", "import", "mr-align MODEL", c.anything),
     ("split", "import", "mr-split", c.parts),
     ("split-cloud", "cloud", "mr-split", c.anything),
     ("normals", "import", "mr-normals", c.unit_normals),

@@ -1,0 +1,22 @@
+/*
+ * align.h -- the rigid motion that brings one surface or cloud onto another, wherever they are.
+ *
+ * Contract: deterministic, the same for any number of threads; nothing depends on the axes or the unit.
+ */
+#ifndef MR_ALIGN_ALIGN_H
+#define MR_ALIGN_ALIGN_H
+
+#include "mesh/mesh.h"
+
+/* A surface, or a cloud; normal: of its points, or NULL where they are not known. */
+typedef struct mr_align_side {
+	const mr_mesh *m;
+	const mr_v3 *normal;
+} mr_align_side;
+
+/* Brings a to b; scale: it may grow or shrink as well.  *r says whether it was found.  MR_EMESH where a side
+ * has too few points. */
+mr_status
+mr_align(mr_ctx *ctx, mr_align_side a, mr_align_side b, bool scale, mr_align_result *r) MR_WARN_UNUSED;
+
+#endif

@@ -1,0 +1,160 @@
+/*
+ * Where one side may lie on the other: points of like features in pairs, as two points with normals fix a
+ * motion (Drost, Ulrich, Navab, Ilic 2010; Fischler, Bolles 1981), and the principal axes in all their orders
+ * and signs.
+ */
+#include "align/model.h"
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "space/local_planes.h"
+
+enum { KEYS = 1000, ALIKE = 3, TRIALS = 2000000, AXES = 24 };
+
+/* Two pairs are alike where lengths differ by so many steps, and cosines of normals by so much. */
+static const double STEPS_OFF = 2, COSINE_OFF = 0.25;
+
+/* Points closer than that, in steps, do not fix a motion. */
+static const double APART = 8;
+
+/* ---- points of like features ---- */
+
+typedef struct match {
+	uint32_t a, b;
+} match;
+
+typedef struct matching {
+	const model *a, *b;
+	size_t keys;
+	match *match; /* ALIKE of each key */
+} matching;
+
+static float
+difference(const float *x, const float *y)
+{
+	float sum = 0;
+
+	for (int c = 0; c < FEATURE; c++)
+		sum += (x[c] - y[c]) * (x[c] - y[c]);
+	return sum;
+}
+
+static void
+find_matches(void *arg, size_t begin, size_t end)
+{
+	matching *w = arg;
+
+	for (size_t k = begin; k < end; k++) {
+		size_t a = k * w->a->sparse.n / w->keys;
+		match *to = w->match + k * ALIKE;
+		float best[ALIKE];
+		for (int i = 0; i < ALIKE; i++) {
+			best[i] = INFINITY;
+			to[i] = (match){ (uint32_t)a, 0 };
+		}
+		for (size_t b = 0; b < w->b->sparse.n; b++) {
+			float d = difference(w->a->feature[a], w->b->feature[b]);
+			int i = ALIKE;
+			for (; i > 0 && d < best[i - 1]; i--)
+				if (i < ALIKE) {
+					best[i] = best[i - 1];
+					to[i].b = to[i - 1].b;
+				}
+			if (i < ALIKE) {
+				best[i] = d;
+				to[i].b = (uint32_t)b;
+			}
+		}
+	}
+}
+
+/* ---- motions ---- */
+
+static mr_affine
+motion(const mr_mat3 *r, mr_v3 from, mr_v3 to)
+{
+	mr_v3 t = mr_sub(to, mr_mat3_apply(r, from));
+	const double *m = r->m;
+
+	return (mr_affine){ { m[0], m[1], m[2], t.x, m[3], m[4], m[5], t.y, m[6], m[7], m[8], t.z } };
+}
+
+static bool
+differ(mr_v3 x, mr_v3 y, mr_v3 u, mr_v3 v)
+{
+	return fabs(mr_dot(x, y) - mr_dot(u, v)) > COSINE_OFF;
+}
+
+/* The motion that brings two points of a with their normals to those of b; false where they are not alike. */
+static bool
+fit_pair(const model *a, const model *b, match x, match y, mr_affine *t)
+{
+	const mr_v3 *p = a->sparse.p, *q = b->sparse.p;
+	mr_v3 da = mr_sub(p[y.a], p[x.a]), db = mr_sub(q[y.b], q[x.b]);
+	mr_v3 nx = a->sparse.normal[x.a], ny = a->sparse.normal[y.a];
+	mr_v3 mx = b->sparse.normal[x.b], my = b->sparse.normal[y.b];
+	double la = mr_norm(da), lb = mr_norm(db);
+	mr_mat3 sum = { { 0 } };
+
+	if (la < APART * STEP || fabs(la - lb) > STEPS_OFF * STEP || lb == 0)
+		return false;
+	da = mr_mul(1 / la, da);
+	db = mr_mul(1 / lb, db);
+	if (differ(nx, ny, mx, my) || differ(nx, da, mx, db) || differ(ny, da, my, db))
+		return false;
+	mr_mat3_add_product(&sum, 2, db, da);
+	mr_mat3_add_product(&sum, 1, mx, nx);
+	mr_mat3_add_product(&sum, 1, my, ny);
+	sum = mr_rotation_nearest(&sum);
+	*t = motion(&sum, mr_lerp(0.5, p[x.a], p[y.a]), mr_lerp(0.5, q[x.b], q[y.b]));
+	return true;
+}
+
+static mr_v3
+axes_of(const samples *s, mr_v3 axis[3])
+{
+	mr_v3 middle = mr_vec(0, 0, 0);
+	double sum[6], value[3];
+
+	for (size_t i = 0; i < s->n; i++)
+		middle = mr_axpy(1 / (double)s->n, s->p[i], middle);
+	mr_covariance(s->p, s->n, 1, sum);
+	mr_eigen_sym3(sum, value, axis);
+	axis[2] = mr_cross(axis[0], axis[1]);
+	return middle;
+}
+
+static void
+guess_axes(const model *a, const model *b, mr_affine guess[AXES])
+{
+	mr_v3 x[3], y[3], from = axes_of(&a->sparse, x), to = axes_of(&b->sparse, y);
+
+	for (int i = 0; i < AXES; i++) {
+		int first = i % 3, second = (first + 1 + i / 3 % 2) % 3;
+		double s = i / 6 % 2 ? -1 : 1, z = i / 12 ? -1 : 1;
+		mr_v3 u = mr_mul(s, y[first]), v = mr_mul(z, y[second]);
+		mr_mat3 r = { { 0 } };
+		mr_mat3_add_product(&r, 1, u, x[0]);
+		mr_mat3_add_product(&r, 1, v, x[1]);
+		mr_mat3_add_product(&r, 1, mr_cross(u, v), x[2]);
+		guess[i] = motion(&r, from, to);
+	}
+}
+
+mr_status
+mr_align_guess(mr_ctx *ctx, const model *a, const model *b, size_t most, mr_affine *guess, size_t *found)
+{
+	MR_SCOPE(ctx);
+	size_t keys = a->sparse.n < KEYS ? a->sparse.n : KEYS, n = keys * ALIKE, got = AXES;
+	matching w = { a, b, keys, MR_NEW(ctx, n, match) };
+	mr_random r = { 1 };
+
+	guess_axes(a, b, guess);
+	mr_parallel(ctx, keys, 16, find_matches, &w);
+	for (size_t i = 0; i < TRIALS && got < most; i++) {
+		size_t x = mr_random_bits(&r) % n, y = mr_random_bits(&r) % n;
+		got += fit_pair(a, b, w.match[x], w.match[y], &guess[got]);
+	}
+	*found = got;
+	return MR_OK;
+}
