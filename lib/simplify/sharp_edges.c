@@ -10,7 +10,7 @@ static const double SHARP = 40;
  * machine parts; of the bunny, igea, a camel and the armadillo 0.09 and more. */
 static const double AROUND = 0.08;
 
-/* Cosine: a curve that turns by more has a corner. */
+/* Cosine: a sharp edge that turns by more has a corner. */
 static const double TURN = 0.7071067811865476;
 
 /* A connected piece of the curves. */
@@ -80,9 +80,10 @@ drop_pieces(mr_ctx *ctx, const mr_dyn *d, double length)
 	mr_mark_release(ctx, here);
 }
 
-/* The kind of v, and of boundaries without sharp edges no corner: scans have ragged ones. */
+/* The kind of v, with a corner where a curve turns by more than that of the cosine; and of boundaries without sharp
+ * edges no corner: scans have ragged ones. */
 static mr_kind
-kind_of(const mr_dyn *d, uint32_t v)
+kind_of(const mr_dyn *d, uint32_t v, double turn)
 {
 	uint32_t end[2];
 	unsigned curves = d->kind[v] == MR_DEAD ? 0 : mr_dyn_along(d, v, end);
@@ -91,13 +92,13 @@ kind_of(const mr_dyn *d, uint32_t v)
 	if (curves == 0)
 		return (mr_kind)d->kind[v];
 	if (curves == 2 && (mr_dyn_on_boundary(d, v) || mr_dot(mr_unit(mr_sub(p, d->p[end[0]])),
-							    mr_unit(mr_sub(d->p[end[1]], p))) > TURN))
+							    mr_unit(mr_sub(d->p[end[1]], p))) > turn))
 		return MR_CURVE;
 	return MR_CORNER;
 }
 
 bool
-mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length)
+mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length, bool turns)
 {
 	bool any = false;
 
@@ -117,7 +118,7 @@ mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length)
 		if (d->twin[h] == MR_NONE)
 			d->curve[h] = h;
 	for (uint32_t v = 0; v < d->nv; v++)
-		d->kind[v] = (uint8_t)kind_of(d, v);
+		d->kind[v] = (uint8_t)kind_of(d, v, turns ? TURN : -2);
 	return true;
 }
 

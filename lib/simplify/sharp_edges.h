@@ -12,7 +12,7 @@
  * turn sharply.  Pieces shorter than `length`, or hardly sharper than the edges around, are dropped; where
  * that is 0, none.
  */
-bool mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length);
+bool mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length, bool turns);
 
 /*
  * Marks the half-edges of the sharp edges that d has as curves, and where one turns sharply at a vertex
