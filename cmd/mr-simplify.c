@@ -11,6 +11,8 @@ static const cmd_opt table[] = {
 	{ 'e', "error", CMD_LENGTH, CMD_LENGTH_OF(mr_simplify_opts, opts, error), 0, 1e300, "LENGTH",
 	    "most distance to the planes of what is merged; 0: no such limit", NULL },
 	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },
+	{ 0, "attributes", CMD_REAL, &opts.attributes, 0, 1e6, "WEIGHT",
+	    "of texture coordinates and colours beside distances", NULL },
 	{ 0, "lock", CMD_TEXT, &lock, 0, 0, "WHAT", "vertices that stay: boundary, seams or region:N", NULL },
 	{ 0, "creases", CMD_FLAG, &opts.creases, 0, 0, NULL,
 	    "keep the sharp edges that points or a mesh show, or say why not", NULL },

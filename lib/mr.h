@@ -586,13 +586,11 @@ typedef struct mr_simplify_opts {
 	const char *layer;    /* NULL: control, else base, else mesh */
 	int lock;             /* mr_lock: which vertices stay, to the bit */
 	size_t region;        /* of MR_LOCK_REGION */
-	uint8_t **sharp;      /* NULL: none are kept; else in and out: see simplify/simplify.h */
-	const bool *fixed;    /* of each vertex: it stays; NULL: none does */
-	uint32_t **face;      /* NULL, or out: of each face of the result, one of before on its side of curves */
+	double attributes;    /* weight of texture coordinates and colours beside distances; 0: none */
 } mr_simplify_opts;
 
 #define MR_SIMPLIFY_DEFAULTS                                                                                         \
-	MR_DEFAULTS(0, 0, 0, false, NULL, 0, 0, 10, false, false, NULL, NULL, NULL, MR_LOCK_NONE, 0, NULL, NULL, NULL)
+	MR_DEFAULTS(0, 0, 0, false, NULL, 0, 0, 10, false, false, NULL, NULL, NULL, MR_LOCK_NONE, 0, 1)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces; /* of the result */

@@ -115,6 +115,10 @@ sum_of(const mr_dyn *d, const mr_site *site, uint32_t h)
 	double trace;
 
 	s.q = mr_quadric_sum(&a->q, &qb);
+	if (a->field) {
+		mr_field fb = mr_field_moved(b->field, mr_mul(-1, s.ab)), f = mr_field_sum(a->field, &fb);
+		mr_field_rest(&f, &s.q);
+	}
 	kind_a += a->rim;
 	kind_b += b->rim;
 	s.x = mr_mul(kind_a == kind_b ? 0.5 : kind_a > kind_b ? 0 : 1, s.ab);
@@ -170,6 +174,15 @@ mr_merge_begin(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m)
 	m->cost = cost_of(&m->sum, mr_quadric_at(&m->sum.q, m->sum.x));
 }
 
+/* The squared distances of what is merged to the planes, by area. */
+static double
+distance2(const mr_dyn *d, const mr_site *site, const mr_merge *m)
+{
+	uint32_t a = d->v[m->edge], b = mr_dyn_to(d, m->edge);
+
+	return mr_quadric_at(&site[a].q, m->sum.x) + mr_quadric_at(&site[b].q, mr_sub(m->sum.x, m->sum.ab));
+}
+
 bool
 mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m)
 {
@@ -187,7 +200,8 @@ mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m)
 		uint32_t v = k ? mr_dyn_to(d, m->edge) : d->v[m->edge];
 		m->p = d->kind[v] == MR_CORNER ? d->p[v] : m->p;
 	}
-	m->error2 = s->q.area > 0 ? error / s->q.area : 0;
+	m->error2 = s->q.area > 0 ? (site[d->v[m->edge]].field ? distance2(d, site, m) : error) / s->q.area
+	                          : 0;
 	m->cost = cost_of(s, error) * uneven(d, site, m->edge, m->ring.n);
 	return true;
 }

@@ -7,7 +7,7 @@
 #define MR_SIMPLIFY_EDGE_COLLAPSE_H
 
 #include "mesh/dynmesh.h"
-#include "op/quadric.h"
+#include "op/field.h"
 
 enum { MR_RING_MAX = 32 }; /* most faces that a merged vertex may have */
 
@@ -20,9 +20,10 @@ typedef struct mr_merge_ring {
 
 /* What a vertex carries with it. */
 typedef struct mr_site {
-	mr_quadric q; /* about its position */
-	double room;  /* error that it may have */
-	bool rim;     /* on the boundary */
+	mr_quadric q;    /* about its position */
+	double room;     /* error that it may have */
+	bool rim;        /* on the boundary */
+	mr_field *field; /* about its position; NULL: none */
 } mr_site;
 
 /* The sum of the quadrics of the ends of an edge about its start. */

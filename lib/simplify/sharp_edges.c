@@ -80,8 +80,8 @@ drop_pieces(mr_ctx *ctx, const mr_dyn *d, double length)
 	mr_mark_release(ctx, here);
 }
 
-/* The kind of v, with a corner where a curve turns by more than that of the cosine; and of boundaries without sharp
- * edges no corner: scans have ragged ones. */
+/* The kind of v, with a corner where a curve turns by more than that of the cosine; and of boundaries without
+ * sharp edges no corner: scans have ragged ones. */
 static mr_kind
 kind_of(const mr_dyn *d, uint32_t v, double turn)
 {

@@ -20,6 +20,7 @@ static const uint16_t UNKNOWN = UINT16_MAX; /* no bucket: the edge has no merge 
 typedef struct simplifier {
 	mr_ctx *ctx;
 	const mr_simplify_opts *o;
+	const mr_simplify_ties *ties;
 	const mr_mesh *m;
 	mr_dyn d;          /* scaled by a power of two to about unit size; at[v]: the number in the input */
 	double scale;      /* that power */
@@ -28,7 +29,7 @@ typedef struct simplifier {
 	uint16_t *bucket;  /* of each such half-edge: its last one */
 	uint32_t *onto;    /* what each vertex was merged into, itself while it lives */
 	uint8_t *mark;     /* for the link condition */
-	uint32_t *source;  /* of each face: its number in the input */
+	uint32_t *corner;  /* of each half-edge, where ties need it: its number in the input */
 	size_t target;     /* faces to stop at; 0: no such limit */
 	double limit;      /* error to stop at; infinite: no such limit */
 	size_t most;       /* faces for whose sake more is merged than there is room for */
@@ -133,9 +134,15 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 	mr_quadric qb = mr_quadric_moved(&s->site[b].q, mr_sub(m->p, d->p[b]));
 
 	d->kind[b] = d->kind[a] > d->kind[b] ? d->kind[a] : d->kind[b];
+	if (s->ties->values) {
+		mr_field fa = mr_field_moved(s->site[a].field, mr_sub(m->p, d->p[a])),
+			 fb = mr_field_moved(s->site[b].field, mr_sub(m->p, d->p[b]));
+		*s->site[b].field = d->kind[b] == MR_SMOOTH ? mr_field_sum(&fa, &fb)
+		                                            : (mr_field){ .weight = 0 };
+	}
 	mr_dyn_collapse(d, h, m->p);
 	s->site[b] = (mr_site){ mr_quadric_sum(&qa, &qb), fmin(s->site[a].room, s->site[b].room),
-		s->site[a].rim || s->site[b].rim };
+		s->site[a].rim || s->site[b].rim, s->site[b].field };
 	s->onto[a] = b;
 	s->faces -= g == MR_NONE ? 1 : 2;
 	if (++s->merges % 8192 == 0)
@@ -253,6 +260,34 @@ weight_of(const simplifier *s, uint32_t f)
 	return w ? (w[at[v[0]]] + w[at[v[1]]] + w[at[v[2]]]) / 3 : 1;
 }
 
+/* Adds how the values of face f go on in its plane to the fields of its corners but those on curves, where
+ * those of the other side are others. */
+static void
+add_field(simplifier *s, uint32_t f, double area)
+{
+	const mr_dyn *d = &s->d;
+	size_t n = s->ties->values;
+	double x[MR_VALUES][3];
+	mr_v3 p[3], g[MR_VALUES];
+
+	for (uint32_t k = 0; k < 3; k++) {
+		p[k] = d->p[d->v[3 * f + k]];
+		for (size_t i = 0; i < n; i++)
+			x[i][k] = s->scale * s->ties->value[n * s->corner[3 * f + k] + i];
+	}
+	for (size_t i = 0; i < n; i++)
+		if (!mr_gradient(p, x[i], &g[i]))
+			return;
+	for (uint32_t k = 0; k < 3; k++) {
+		mr_field *field = s->site[d->v[3 * f + k]].field;
+		if (d->kind[d->v[3 * f + k]] != MR_SMOOTH)
+			continue;
+		for (size_t i = 0; i < n; i++)
+			mr_field_add(field, i, g[i], x[i][k], area / 3);
+		field->weight += area / 3;
+	}
+}
+
 static void
 add_quadrics(simplifier *s)
 {
@@ -262,6 +297,8 @@ add_quadrics(simplifier *s)
 		mr_v3 cross = mr_dyn_cross(d, d->p, f), normal = mr_unit(cross);
 		double weight = weight_of(s, f);
 		add_face(s, f, normal, weight * mr_norm(cross) / 2);
+		if (s->ties->values)
+			add_field(s, f, weight * mr_norm(cross) / 2);
 		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
 			if (d->twin[h] == MR_NONE || mr_dyn_on_curve(d, h))
 				add_rim(s, h, normal, weight);
@@ -275,9 +312,8 @@ take_source(simplifier *s, const uint8_t *sharp)
 {
 	mr_dyn *d = &s->d;
 
-	s->source = MR_NEW(s->ctx, d->nf, uint32_t);
-	for (size_t f = 0; f < d->nf; f++)
-		s->source[f] = d->curve[3 * f] / 3;
+	s->corner = MR_NEW(s->ctx, 3 * d->nf, uint32_t);
+	memcpy(s->corner, d->curve, 3 * d->nf * sizeof *s->corner);
 	for (size_t h = 0; h < 3 * d->nf; h++)
 		d->curve[h] = sharp && sharp[d->curve[h]] ? d->curve[h] : MR_NONE;
 	if (!sharp)
@@ -288,7 +324,7 @@ take_source(simplifier *s, const uint8_t *sharp)
 static mr_status
 copy_mesh(simplifier *s, const mr_mesh *m)
 {
-	const uint8_t *sharp = s->o->sharp ? *s->o->sharp : NULL;
+	const uint8_t *sharp = s->ties->sharp ? *s->ties->sharp : NULL;
 	mr_topology topo;
 	mr_dyn d = { .nv = m->nv,
 		.nf = m->nf,
@@ -310,7 +346,7 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 		d.at[v] = v;
 		d.kind[v] = d.out[v] == MR_NONE ? MR_DEAD : MR_SMOOTH;
 	}
-	d.curve = s->o->face || sharp ? MR_NEW(s->ctx, 3 * m->nf, uint32_t) : NULL;
+	d.curve = s->ties->face || sharp ? MR_NEW(s->ctx, 3 * m->nf, uint32_t) : NULL;
 	for (uint32_t h = 0; d.curve && h < 3 * m->nf; h++)
 		d.curve[h] = h;
 	MR_TRY(mr_dyn_compact(s->ctx, &d));
@@ -329,7 +365,7 @@ find_sharp_edges(simplifier *s, const mr_mesh *m)
 	size_t most = s->most > s->target ? s->most : s->target;
 	double edge = s->scale * sqrt(2.3 * mr_mesh_area(s->ctx, m) / (double)(most + 1));
 
-	if (mr_sharp_edges(s->ctx, &s->d, s->o->creases || s->faces <= most ? 0 : 3 * edge, !s->o->face))
+	if (mr_sharp_edges(s->ctx, &s->d, s->o->creases || s->faces <= most ? 0 : 3 * edge, !s->ties->face))
 		s->longest = 1.5 * edge;
 }
 
@@ -342,13 +378,18 @@ begin(simplifier *s, const mr_mesh *m)
 	s->mark = MR_NEW_ZERO(s->ctx, s->d.nv, uint8_t);
 	s->bucket = MR_NEW(s->ctx, 3 * s->d.nf, uint16_t);
 	s->faces = s->d.nf;
-	if (s->o->sharp)
+	if (s->ties->sharp)
 		find_sharp_edges(s, m);
-	for (uint32_t v = 0; s->o->fixed && v < s->d.nv; v++)
-		if (s->o->fixed[s->d.at[v]])
+	for (uint32_t v = 0; s->ties->fixed && v < s->d.nv; v++)
+		if (s->ties->fixed[s->d.at[v]])
 			s->d.kind[v] = MR_CORNER;
 	for (uint32_t v = 0; v < s->d.nv; v++)
 		s->site[v].room = s->o->room ? s->o->room[s->d.at[v]] : INFINITY;
+	if (s->ties->values) {
+		mr_field *field = mr_alloc_zero(s->ctx, s->d.nv, sizeof *field);
+		for (uint32_t v = 0; v < s->d.nv; v++)
+			s->site[v].field = &field[v];
+	}
 	if (s->fine)
 		s->most = 0;
 	add_quadrics(s);
@@ -379,7 +420,7 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 	mr_tri *t = MR_NEW(s->ctx, s->faces, mr_tri);
 	uint32_t *number = MR_NEW(s->ctx, d->nv, uint32_t), nv = 0;
 	uint8_t *sharp = d->curve ? MR_NEW(s->ctx, 3 * d->nf, uint8_t) : NULL;
-	uint32_t *face = s->o->face ? MR_NEW(s->ctx, s->faces, uint32_t) : NULL;
+	uint32_t *face = s->ties->face ? MR_NEW(s->ctx, s->faces, uint32_t) : NULL;
 	size_t nf = 0;
 
 	if (sharp)
@@ -395,14 +436,14 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 		if (sharp)
 			memmove(sharp + 3 * nf, sharp + 3 * f, 3);
 		if (face)
-			face[nf] = s->source[f];
+			face[nf] = s->corner[3 * f] / 3;
 		t[nf++] = (mr_tri){ { number[d->v[3 * f]], number[d->v[3 * f + 1]],
 		    number[d->v[3 * f + 2]] } };
 	}
-	if (s->o->sharp)
-		*s->o->sharp = sharp;
+	if (s->ties->sharp)
+		*s->ties->sharp = sharp;
 	if (face)
-		*s->o->face = face;
+		*s->ties->face = face;
 	number_onto(s, s->m->nv, number, onto);
 	*out = (mr_mesh){ s->m->name, p, t, nv, nf };
 	*r = (mr_simplify_result){ nv, nf, s->merges, 0, sqrt(s->error2) / s->scale };
@@ -432,13 +473,15 @@ merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 }
 
 mr_status
-mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto,
-    mr_simplify_result *result)
+mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, const mr_simplify_ties *ties,
+    mr_mesh *out, uint32_t *onto, mr_simplify_result *result)
 {
+	static const mr_simplify_ties none = { 0 };
 	double diagonal = mr_mesh_diagonal(m);
 	mr_simplify_result r;
 	simplifier s = { .ctx = ctx,
 		.o = opts,
+		.ties = ties ? ties : &none,
 		.m = m,
 		.needle = MR_NEEDLE,
 		.longest = INFINITY,

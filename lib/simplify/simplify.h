@@ -4,6 +4,7 @@
 #ifndef MR_SIMPLIFY_H
 #define MR_SIMPLIFY_H
 
+#include "op/field.h"
 #include "space/near.h"
 #include "space/sampling.h"
 #include "space/source_map.h"
@@ -16,16 +17,26 @@ typedef struct mr_simplify_cloud {
 	mr_sampling sampling;
 } mr_simplify_cloud;
 
+/* What of a mesh stays.  All NULL: nothing. */
+typedef struct mr_simplify_ties {
+	uint8_t *
+	    *sharp; /* its edges that *sharp marks (3 nf; *sharp NULL: those that are sharp by the angles of
+	               its faces); and marks those of the result, in the arena, NULL where there are none */
+	const bool *fixed; /* of each vertex: it stays */
+	uint32_t **face;   /* out: of each face of the result one of before on its side of the curves */
+	const double
+	    *value;    /* `values` of each corner, as lengths by which the surface seems moved; NaN: none */
+	size_t values; /* at most MR_VALUES */
+} mr_simplify_ties;
+
 /*
  * Simplifies an oriented manifold m, boundary allowed; its topology stays (link condition) and no triangle is
  * flipped.  Where nothing more can be merged the result has more faces than asked for: the result
  * tells.  onto: m->nv, the caller's: the vertex of the result that each was merged into (MR_NONE for an
- * isolated one).  out: in the arena.  result: or NULL.  opts->sharp: not NULL: sharp edges of m are kept,
- * which *sharp marks (3 m->nf; NULL: those by the angles of its faces), and *sharp marks them in out, 3 nf,
- * in the arena, NULL where there are none.
+ * isolated one).  out: in the arena.  ties, result: or NULL.
  */
-mr_status mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out,
-    uint32_t *onto, mr_simplify_result *result);
+mr_status mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts,
+    const mr_simplify_ties *ties, mr_mesh *out, uint32_t *onto, mr_simplify_result *result);
 
 /* The faces of a control mesh for n points; says where that is more than one for so many points as usual. */
 size_t mr_simplify_faces_for(size_t n);

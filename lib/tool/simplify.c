@@ -123,7 +123,8 @@ replace(mr_ctx *ctx, mr_frame *f, const uint32_t *onto, mr_successor s)
 
 /* The vertices that stay: those of boundaries, of seams or of a region. */
 static mr_status
-lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint8_t *seam, mr_simplify_opts *o)
+lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint8_t *seam, const mr_simplify_opts *o,
+    mr_simplify_ties *ties)
 {
 	bool *fixed = MR_NEW_ZERO(ctx, m->nv, bool);
 	const uint32_t *region = NULL;
@@ -137,7 +138,7 @@ lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint8_t *seam, mr_simplif
 	for (uint32_t h = 0; !region && h < 3 * m->nf; h++)
 		if (o->lock == MR_LOCK_BOUNDARY ? topo.twin[h] == MR_NONE : seam && seam[h])
 			fixed[mr_he_from(m, h)] = fixed[mr_he_to(m, h)] = true;
-	o->fixed = fixed;
+	ties->fixed = fixed;
 	return MR_OK;
 }
 
@@ -168,6 +169,48 @@ may_be_sharp(
 	return MR_OK;
 }
 
+/* Of white beside black, of the diagonal: as if the surface were so far off. */
+static const double WHITE = 0.05;
+
+/* What a surface is seen to have beside its shape: texture coordinates, as lengths on it, and colours. */
+static mr_status
+find_values(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, double weight, mr_simplify_ties *ties)
+{
+	bool of_corners = mr_layer_has(f, m->name, "corner_texcoord"),
+	     colours = mr_layer_has(f, m->name, "color");
+	size_t coordinates = of_corners || mr_layer_has(f, m->name, "texcoord") ? 2 : 0;
+	size_t n = coordinates + (colours ? 3 : 0);
+	double *value = MR_NEW(ctx, 3 * m->nf * n, double), map = 0, white = WHITE * mr_mesh_diagonal(m);
+	const void *at = NULL, *colour = NULL;
+
+	if (coordinates)
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, of_corners ? "corner_texcoord" : "texcoord",
+		    of_corners ? m->nf : m->nv, &at));
+	if (colours)
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "color", m->nv, &colour));
+	for (size_t c = 0; c < 3 * m->nf; c++) {
+		uint32_t v = m->t[c / 3].v[c % 3];
+		if (coordinates)
+			memcpy(
+			    value + n * c, (const double *)at + 2 * (of_corners ? c : v), 2 * sizeof *value);
+		for (size_t k = 0; colours && k < 3; k++)
+			value[n * c + coordinates + k] = weight * white *
+			                                 ((const uint8_t *)colour)[4 * v + k] / 255;
+	}
+	for (size_t t = 0; coordinates && t < m->nf; t++) {
+		const double *a = value + 3 * n * t, *b = a + n, *c = b + n;
+		double area = fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+		map += isfinite(area) ? area : 0;
+	}
+	map = map > 0 ? weight * sqrt(mr_mesh_area(ctx, m) / map) : 0;
+	for (size_t c = 0; coordinates && c < 3 * m->nf; c++)
+		for (size_t k = 0; k < 2; k++)
+			value[n * c + k] *= map;
+	ties->value = value;
+	ties->values = n;
+	return MR_OK;
+}
+
 static mr_status
 put_marks(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const uint8_t *mark, size_t *count)
 {
@@ -187,10 +230,12 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	const char *layer;
 	uint32_t *onto, *face;
 	uint8_t *marks = NULL, *seam = NULL;
+	mr_simplify_ties ties = { 0 };
 	bool look;
 
 	MR_TRY(mr_check_number(ctx, "ratio", o.ratio, 0, 1));
 	MR_TRY(mr_check_number(ctx, "error", o.error, 0, 1e300));
+	MR_TRY(mr_check_number(ctx, "attributes", o.attributes, 0, 1e6));
 	MR_TRY(mr_check_number(ctx, "boundary", o.boundary, 0, 1e6));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o.layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
@@ -207,25 +252,27 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
 		limit_by_frame(ctx, &surface, &points, &o);
 	onto = MR_NEW(ctx, surface.nv, uint32_t);
-	if (!o.to && !marks && mr_layer_carries(f, layer))
-		o.face = &face;
-	if (o.face)
+	if (!o.to && !marks && mr_layer_carries(f, layer)) {
+		ties.face = &face;
 		MR_TRY(mr_layer_seams(ctx, f, &surface, &seam));
+		if (o.attributes > 0)
+			MR_TRY(find_values(ctx, f, &surface, o.attributes, &ties));
+	}
 	if (o.lock)
-		MR_TRY(lock(ctx, f, &surface, seam, &o));
+		MR_TRY(lock(ctx, f, &surface, seam, &o, &ties));
 	if (seam)
 		marks = seam;
 	if (marks || (of_mesh(&o) && !o.smooth))
-		o.sharp = &marks;
-	MR_TRY(mr_simplify(ctx, &surface, &o, &out, onto, r));
+		ties.sharp = &marks;
+	MR_TRY(mr_simplify(ctx, &surface, &o, &ties, &out, onto, r));
 	r->creases = look || o.creases ? 0 : MR_UNKNOWN;
 	if (points.n > 0)
 		MR_TRY(mr_sample_report_move(ctx, f, "points"));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out)
 		    : replace(ctx, f, onto,
-			  (mr_successor){ &m, &out, seam, seam ? marks : NULL, o.face ? face : NULL, NULL,
+			  (mr_successor){ &m, &out, seam, seam ? marks : NULL, ties.face ? face : NULL, NULL,
 			      { NULL, NULL } }));
-	if (o.sharp && !seam)
+	if (ties.sharp && !seam)
 		MR_TRY(put_marks(ctx, f, &out, marks, &r->creases));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);
 }

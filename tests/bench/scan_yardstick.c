@@ -388,7 +388,7 @@ measure_simplified(mr_ctx *ctx, const mr_mesh *truth, size_t faces, double *bent
 	if (!onto)
 		return MR_EMEM;
 	opts.faces = faces;
-	MR_TRY(mr_simplify(ctx, truth, &opts, &simplified, onto, NULL));
+	MR_TRY(mr_simplify(ctx, truth, &opts, NULL, &simplified, onto, NULL));
 	MR_TRY(measure_surface(ctx, &simplified, NULL, &figure));
 	*bent = figure.bent;
 	return MR_OK;

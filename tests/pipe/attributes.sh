@@ -119,3 +119,28 @@ END
 mr-import colour.ply | mr-simplify -n 100 | mr-export -f ply-ascii - | awk -f linear.awk &&
     mr-import colour.ply | mr-remesh -r 2 | mr-export -l base -f ply-ascii - | awk -f linear.awk ||
     { echo 'colours are off'; exit 1; }
+
+# A flat square in two colours: their border stays where it is, which distances alone do not tell.
+awk '/end_header/ { at = NR } at && NR > at && NF >= 6 { $4 = $1 + $2 / 3 < 0.6 ? 200 : 40; $5 = $6 = $4 } { print }' colour.ply >step.ply
+cat >step.py <<'END'
+import sys
+lines = open(sys.argv[1]).read().split("end_header\n")[1].split("\n")
+points = [list(map(float, line.split())) for line in lines if len(line.split()) > 4]
+off = total = 0
+for face in (list(map(int, line.split()[1:])) for line in lines if len(line.split()) == 4):
+    (ax, ay, _, ac, *_), (bx, by, _, bc, *_), (cx, cy, _, cc, *_) = (points[v] for v in face)
+    area = abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
+    for i in range(10):
+        for j in range(10 - i):
+            u, v = (i + 1 / 3) / 10, (j + 1 / 3) / 10
+            x, y, c = (a + u * (b - a) + v * (d - a) for a, b, d in ((ax, bx, cx), (ay, by, cy), (ac, bc, cc)))
+            off += area / 55 * abs(c - (200 if x + y / 3 < 0.6 else 40))
+    total += area
+assert abs(total - 1) < 1e-9, total
+print(off)
+END
+for weight in 0 1; do
+	mr-import step.ply | mr-simplify -n 60 --attributes $weight | mr-export -f ply-ascii - >out.ply &&
+	    python3 step.py out.ply >off.$weight || exit
+done
+awk 'NR == FNR { most = $1 / 2; next } $1 > most { print $1, "of", 2 * most; exit 1 }' off.0 off.1 || { echo 'the border of colours moved'; exit 1; }

@@ -83,7 +83,7 @@ vertices_lie_where_they_were_merged(void **state)
 	assert_int_equal(mr_solid_make(&ctx, &solid, &m), MR_OK);
 	o.faces = 400;
 	onto = MR_NEW(&ctx, m.nv, uint32_t);
-	assert_int_equal(mr_simplify(&ctx, &m, &o, &out, onto, NULL), MR_OK);
+	assert_int_equal(mr_simplify(&ctx, &m, &o, NULL, &out, onto, NULL), MR_OK);
 	assert_int_equal(out.nf, 400);
 	assert_int_equal(out.nv, 202);
 	assert_int_equal(mr_simplify_map(&ctx, &m, &out, onto, &map), MR_OK);
@@ -108,9 +108,8 @@ sharp_length(mr_solid solid, size_t vertices, size_t faces)
 	shape.vertices = vertices;
 	assert_int_equal(mr_solid_make(&ctx, &shape, &m), MR_OK);
 	o.faces = faces;
-	o.sharp = &sharp;
 	onto = MR_NEW(&ctx, m.nv, uint32_t);
-	assert_int_equal(mr_simplify(&ctx, &m, &o, &out, onto, NULL), MR_OK);
+	assert_int_equal(mr_simplify(&ctx, &m, &o, &(mr_simplify_ties){ .sharp = &sharp }, &out, onto, NULL), MR_OK);
 	for (uint32_t h = 0; sharp && h < 3 * out.nf; h++)
 		if (sharp[h])
 			length += mr_dist(out.p[mr_he_from(&out, h)], out.p[mr_he_to(&out, h)]) / 2;
@@ -151,7 +150,7 @@ map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_
 	m->p = p;
 	o.faces = faces;
 	onto = MR_NEW(&ctx, m->nv, uint32_t);
-	assert_int_equal(mr_simplify(&ctx, m, &o, out, onto, NULL), MR_OK);
+	assert_int_equal(mr_simplify(&ctx, m, &o, NULL, out, onto, NULL), MR_OK);
 	assert_int_equal(mr_simplify_map(&ctx, m, out, onto, map), MR_OK);
 }
 
