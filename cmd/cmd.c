@@ -309,16 +309,11 @@ take_output(cmd *c, cmd_args *args)
 {
 	char *last = args->operand_count > 1 ? args->operands[args->operand_count - 1] : "";
 	const char *end = strrchr(last, '.');
-	size_t n = 0;
 
 	if (!c->tool->source || c->output || !end || strcmp(end, ".mrs") != 0)
 		return;
 	c->output = last;
 	args->operand_count--;
-	for (size_t i = 0; i < args->typed_count; i++)
-		if (args->typed[i] != last)
-			args->typed[n++] = args->typed[i];
-	args->typed_count = n;
 }
 
 static void

@@ -198,31 +198,17 @@ find(const cmd_opt *const tables[2], char letter, const char *name, size_t lengt
 	return NULL;
 }
 
-enum { LONGEST = 32 };
-
-/* How many letters are put in, left out, changed or exchanged between two words: of the first alone, where it
- * only lacks the rest. */
+/* How many letters differ between what two words begin and end with alike; 0 where b goes on behind a. */
 static size_t
-distance(const char *a, size_t n, const char *b)
+unlike(const char *a, size_t n, const char *b)
 {
-	size_t d[LONGEST + 1][LONGEST + 1], m = strlen(b);
+	size_t m = strlen(b), shorter = n < m ? n : m, head = 0, tail = 0;
 
-	if (n > LONGEST || m > LONGEST || !strncmp(a, b, n))
-		return n > LONGEST || m > LONGEST ? LONGEST : 0;
-	for (size_t i = 0; i <= n; i++)
-		for (size_t j = 0; j <= m; j++) {
-			bool other = i && j && a[i - 1] != b[j - 1];
-			size_t least = i && j ? d[i - 1][j - 1] + other : i + j;
-			if (i && j) {
-				least = d[i - 1][j] < least ? d[i - 1][j] + 1 : least;
-				least = d[i][j - 1] < least ? d[i][j - 1] + 1 : least;
-			}
-			if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-			    d[i - 2][j - 2] < least)
-				least = d[i - 2][j - 2] + 1;
-			d[i][j] = least;
-		}
-	return d[n][m];
+	while (head < shorter && a[head] == b[head])
+		head++;
+	while (tail < shorter - head && a[n - 1 - tail] == b[m - 1 - tail])
+		tail++;
+	return head == n ? 0 : (n > m ? n : m) - head - tail;
 }
 
 /* Refuses a word that is no option, and names the one it is like: of which half is wrong at most. */
@@ -234,7 +220,7 @@ fail_unknown(mr_ctx *ctx, const cmd_opt *const tables[2], const char *word, size
 
 	for (int k = 0; k < 2; k++)
 		for (const cmd_opt *o = tables[k]; o && o->name; o++) {
-			size_t d = distance(name, letters, o->name);
+			size_t d = unlike(name, letters, o->name);
 			if (d < best) {
 				best = d;
 				like = o->name;

@@ -1,16 +1,13 @@
 /* Models in and out of layers. */
 #include "formats/model.h"
-#include "base/text.h"
 #include "formats/build.h"
 #include "formats/format.h"
 #include "formats/materials.h"
-#include "mesh/mend.h"
 #include "mesh/normals.h"
 #include "mesh/subset.h"
 #include "mesh/validate.h"
-#include "space/outward.h"
-#include "space/stitch.h"
 #include "stream/record.h"
+#include "tool/mend.h"
 
 #include <float.h>
 
@@ -328,86 +325,6 @@ keep_placed(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 	return mr_layer_keep(ctx, f, layer, &kept);
 }
 
-/* What was done to a model, in words, and how often in all. */
-typedef struct deeds {
-	mr_text words;
-	size_t count;
-} deeds;
-
-/* "12 faces turned", behind what was done before; nothing of none. */
-static void
-add_deed(deeds *d, size_t count, const char *what)
-{
-	if (count)
-		mr_text_add(&d->words, "%s%zu %s", d->count ? ", " : "", count, what);
-	d->count += count;
-}
-
-/* Finds the parts that are inside out, and turns them where that is asked for. */
-static mr_status
-turn_outward(mr_ctx *ctx, mr_frame *f, const char *layer, bool turn, size_t *parts)
-{
-	bool *turned;
-	mr_mesh m;
-
-	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &m));
-	turned = MR_NEW(ctx, m.nf, bool);
-	mr_inside_out(ctx, &m, turned, parts);
-	return *parts && turn ? mr_layer_turn(ctx, f, layer, turned) : MR_OK;
-}
-
-/* Welds, stitches, repairs and turns, as it is asked; one finding says what was done. */
-static mr_status
-mend(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_import_opts *o, double unit)
-{
-	deeds done = { .words.ctx = ctx };
-	mr_repair_report r = { 0 };
-	size_t joined = 0, stitched = 0, inward = 0;
-	double eps = fmax(o->weld, 0) * unit;
-	const bool *may = NULL;
-	bool faces = mr_layer_has(f, layer, "triangles");
-	mr_frame before;
-	mr_mesh m;
-
-	if (o->welds && o->weld < 0 && faces) {
-		MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &m));
-		MR_TRY(mr_weld_distance(ctx, &m, &eps, &may));
-	}
-	if (o->welds)
-		MR_TRY(mr_layer_weld(ctx, f, layer, eps, may, &joined));
-	if (o->repair && faces) {
-		mr_frame_copy(ctx, f, &before);
-		MR_TRY(mr_layer_repair(ctx, f, layer, &r));
-		if (r.open)
-			MR_TRY(mr_layer_stitch(ctx, &before, layer, &stitched));
-		if (stitched)
-			*f = before;
-		if (stitched)
-			MR_TRY(mr_layer_repair(ctx, f, layer, &r));
-	}
-	add_deed(&done, joined,
-	    eps > 0 && may ? mr_format(ctx, "vertices joined within %.3g", eps) : "vertices joined");
-	add_deed(&done, stitched, "vertices stitched into edges");
-	add_deed(&done, r.degenerate, "degenerate faces");
-	add_deed(&done, r.duplicate, "duplicate faces");
-	add_deed(&done, r.isolated, "isolated vertices");
-	add_deed(&done, r.split_edges, "edges split");
-	add_deed(&done, r.split_vertices, "vertices split");
-	add_deed(&done, r.flipped, "faces turned");
-	add_deed(&done, r.cut_edges, "edges cut");
-	if (faces && (o->outward || r.inward))
-		MR_TRY(turn_outward(ctx, f, layer, o->outward, &inward));
-	add_deed(&done, o->outward ? inward : 0, "parts turned outward");
-	inward = o->outward ? 0 : inward;
-	if (done.count || r.open || inward)
-		mr_found(ctx, &(mr_finding){ .kind = MR_REPAIRED,
-				  .what = done.count ? done.words.s : "nothing",
-				  .count = done.count,
-				  .value = (double)inward,
-				  .limit = (double)r.open });
-	return MR_OK;
-}
-
 static mr_status
 import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame, mr_import_result *result)
 {
@@ -430,7 +347,7 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	MR_TRY(mr_frame_new(ctx, name, &f));
 	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, layer, &m), "%s", path));
 	MR_TRY(mr_prefix(ctx, keep_placed(ctx, f, layer, &m), "%s", path));
-	MR_TRY(mr_prefix(ctx, mend(ctx, f, layer, o, unit), "%s", path));
+	MR_TRY(mr_prefix(ctx, mr_layer_mend(ctx, f, layer, o, unit), "%s", path));
 	*frame = f;
 	mr_libraries_missing(ctx, path, m.mtllib);
 	m.counts.vertices = mr_frame_find(f, layer, "position")->rows;

@@ -27,6 +27,8 @@ typedef struct table {
 	char separator;
 	uint64_t count; /* as the file claims */
 	size_t columns, rows;
+	double *value; /* of all rows */
+	size_t room;
 	column column[COLUMNS];
 	size_t units[2], others[2]; /* rows of columns 3 to 5, 6 to 8 of length 1, of neither 0 nor 1 */
 	double lean; /* of seven columns: how much nearer the last is to its neighbour than the fourth */
@@ -217,11 +219,13 @@ static mr_status
 survey(table *t)
 {
 	mr_scan text = t->text, line;
-	double x[COLUMNS] = { 0 };
 	size_t n = 0;
 
 	while (next_row(&text, &line)) {
 		const mr_scan row = line;
+		double *x;
+		MR_RESERVE(t->ctx, t->value, t->rows * t->columns, COLUMNS, &t->room);
+		x = t->value + t->rows * t->columns;
 		if (t->rows == 0)
 			t->separator = separator_of(&line, ";,"); /* tabs between numbers are blanks */
 		MR_TRY(row_values(t, &line, x, &n));
@@ -358,20 +362,6 @@ add_columns(table *t)
 	return mr_rows_room(&t->points, t->rows);
 }
 
-static mr_status
-fill(table *t)
-{
-	mr_scan text = t->text, line;
-	double x[COLUMNS] = { 0 };
-	size_t n = 0;
-
-	while (next_row(&text, &line)) {
-		MR_TRY(row_values(t, &line, x, &n));
-		mr_rows_put(&t->points, x);
-	}
-	return MR_OK;
-}
-
 /* Twice as many rows of three as counted, of which the second half are of length 1, or 0: normals. */
 static bool
 are_halves(const table *t)
@@ -416,7 +406,8 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (!t.named)
 		guess_roles(&t);
 	MR_TRY(add_columns(&t));
-	MR_TRY(fill(&t));
+	for (const double *x = t.value, *end = x + t.rows * t.columns; x < end; x += t.columns)
+		mr_rows_put(&t.points, x);
 	mr_rows_end(&t.points);
 	finish_normals(&t);
 	return mr_build_finish(&t.points.b, m);
