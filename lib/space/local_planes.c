@@ -135,12 +135,13 @@ directions_apart(const mr_v3 *q, size_t k, mr_v3 direction[AROUND])
 	size_t n = 0;
 
 	for (size_t j = 1; j < k && n < AROUND; j++) {
-		mr_v3 d = mr_unit(mr_sub(q[j], q[0]));
+		mr_v3 d = mr_sub(q[j], q[0]);
+		double least = APART * mr_norm(d);
 		size_t i = 0;
-		while (i < n && mr_dot(d, direction[i]) < APART)
+		while (i < n && mr_dot(d, direction[i]) < least)
 			i++;
 		if (i == n)
-			direction[n++] = d;
+			direction[n++] = mr_unit(d);
 	}
 	return n;
 }
@@ -221,7 +222,7 @@ mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, b
 	if (k < 3 || k > MOST || links >= k)
 		return mr_fail(ctx, MR_ERANGE, "planes of %zu points and %zu links: 3 to %d are allowed", k,
 		    links, MOST);
-	MR_TRY(mr_near_build(ctx, p, n, &near));
+	MR_TRY(mr_near_build_distinct(ctx, p, n, &near));
 	MR_TRY(fit_all(ctx, near, p, n, k, around, &r));
 	*out = r;
 	return MR_OK;

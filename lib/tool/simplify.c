@@ -38,7 +38,8 @@ read_points(mr_ctx *ctx, mr_frame *f, const char *result_layer, mr_simplify_clou
 		return MR_OK;
 	c->p = points.p;
 	c->n = points.nv;
-	return mr_near_build(ctx, c->p, c->n, &c->near);
+	return (c->sampling.places == c->n ? mr_near_build_distinct : mr_near_build)(
+	    ctx, c->p, c->n, &c->near);
 }
 
 /* The limits of a control mesh for points: as few faces as are enough for so many, or more where it would be
