@@ -93,7 +93,7 @@ find_texture(mr_ctx *ctx, const mr_model *m, const mr_bake_opts *o, mr_bake_targ
 
 	t->width = t->height = o->side;
 	r->charts = 0;
-	if (uv && mr_texture_overlap(ctx, &t->m, uv, o->side, o->side) < some) {
+	if (uv && mr_texture_overlap(ctx, t->m.nf, uv, o->side, NULL, NULL) < some) {
 		t->uv = uv;
 	} else {
 		MR_TRY(mr_charts(ctx, &t->m, o->side, o->gutter, &made, &r->charts));

@@ -26,8 +26,8 @@ edge(const footprint *f, int k, int64_t x, int64_t y)
 typedef struct cover {
 	const footprint *face;
 	size_t faces, width, height;
-	uint32_t *of;   /* each texel's face */
-	size_t *common; /* of each row: texels within a second one */
+	uint32_t *of;     /* each texel's face */
+	uint32_t *second; /* another that it is within; NULL: not asked for */
 } cover;
 
 static int64_t
@@ -67,25 +67,32 @@ first_after(int64_t x, size_t end)
 	return e < (int64_t)end ? e : (int64_t)end;
 }
 
-/* The lowest face has a texel that several have, as on their edge. */
+/* The lowest face has a texel that several have, as on their edge.  around: also those that are nobody's
+ * within half a texel, which slivers need. */
 static void
-cover_face(const cover *c, uint32_t i, size_t top, size_t bottom)
+cover_face(const cover *c, uint32_t i, size_t top, size_t bottom, bool around)
 {
 	const footprint *f = &c->face[i];
-	int64_t area = edge(f, 0, f->x[0], f->y[0]), sign = area < 0 ? -1 : 1;
-	int64_t y0 = first_from(least(f->y)), y1 = first_after(most(f->y), bottom);
-	int64_t x0 = first_from(least(f->x)), x1 = first_after(most(f->x), c->width);
+	int64_t area = edge(f, 0, f->x[0], f->y[0]), sign = area < 0 ? -1 : 1,
+		reach = around ? SUBTEXEL / 2 : 0;
+	int64_t y0 = first_from(least(f->y) - reach), y1 = first_after(most(f->y) + reach, bottom), beyond[3];
+	int64_t x0 = first_from(least(f->x) - reach), x1 = first_after(most(f->x) + reach, c->width);
 
+	for (int k = 0; k < 3; k++)
+		beyond[k] = -reach * (int64_t)hypot((double)(f->x[(k + 1) % 3] - f->x[(k + 2) % 3]),
+					 (double)(f->y[(k + 1) % 3] - f->y[(k + 2) % 3]));
 	for (int64_t y = y0 > (int64_t)top ? y0 : (int64_t)top; area != 0 && y < y1; y++)
 		for (int64_t x = x0; x < x1; x++) {
 			int64_t w[3];
-			uint32_t *of = &c->of[(size_t)y * c->width + (size_t)x];
+			size_t texel = (size_t)y * c->width + (size_t)x;
 			for (int k = 0; k < 3; k++)
 				w[k] = sign * edge(f, k, x * SUBTEXEL, y * SUBTEXEL);
-			if (w[0] < 0 || w[1] < 0 || w[2] < 0)
+			if (w[0] < beyond[0] || w[1] < beyond[1] || w[2] < beyond[2])
 				continue;
-			c->common[y] += *of != MR_NONE && w[0] && w[1] && w[2];
-			*of = *of == MR_NONE ? i : *of;
+			if (c->of[texel] == MR_NONE)
+				c->of[texel] = i;
+			else if (c->second && !around && w[0] && w[1] && w[2])
+				c->second[texel] = i;
 		}
 }
 
@@ -96,21 +103,25 @@ cover_bands(void *arg, size_t begin, size_t end)
 
 	for (size_t band = begin; band < end; band++) {
 		size_t top = band * BAND, bottom = top + BAND < c->height ? top + BAND : c->height;
-		for (uint32_t i = 0; i < c->faces; i++)
-			if (least(c->face[i].y) < (int64_t)bottom * SUBTEXEL &&
-			    most(c->face[i].y) >= (int64_t)top * SUBTEXEL)
-				cover_face(c, i, top, bottom);
+		for (int around = 0; around < 2; around++)
+			for (uint32_t i = 0; i < c->faces; i++)
+				if (least(c->face[i].y) < (int64_t)(bottom + 1) * SUBTEXEL &&
+				    most(c->face[i].y) >= ((int64_t)top - 1) * SUBTEXEL)
+					cover_face(c, i, top, bottom, around);
 	}
 }
 
 static cover
-cover_texture(mr_ctx *ctx, size_t nf, const double *uv, size_t width, size_t height)
+cover_texture(mr_ctx *ctx, size_t nf, const double *uv, size_t width, size_t height, bool twice)
 {
 	footprint *face = MR_NEW(ctx, nf, footprint);
-	cover c = { face, nf, width, height, MR_NEW(ctx, width * height, uint32_t),
-		MR_NEW_ZERO(ctx, height, size_t) };
+	cover c = { face, nf, width, height, MR_NEW(ctx, width * height, uint32_t), NULL };
 
 	memset(c.of, 0xff, width * height * sizeof *c.of);
+	if (twice) {
+		c.second = MR_NEW(ctx, width * height, uint32_t);
+		memset(c.second, 0xff, width * height * sizeof *c.second);
+	}
 	for (size_t i = 0; i < 3 * nf; i++) {
 		face[i / 3].x[i % 3] = to_fixed(uv[2 * i], width);
 		face[i / 3].y[i % 3] = to_fixed(1 - uv[2 * i + 1], height);
@@ -120,17 +131,20 @@ cover_texture(mr_ctx *ctx, size_t nf, const double *uv, size_t width, size_t hei
 }
 
 double
-mr_texture_overlap(mr_ctx *ctx, const mr_mesh *m, const double *uv, size_t width, size_t height)
+mr_texture_overlap(mr_ctx *ctx, size_t nf, const double *uv, size_t side,
+    void (*meet)(void *arg, uint32_t a, uint32_t b), void *arg)
 {
 	MR_SCOPE(ctx);
-	cover c = cover_texture(ctx, m->nf, uv, width, height);
-	size_t common = 0, all = 0;
+	cover c = cover_texture(ctx, nf, uv, side, side, true);
+	size_t twice = 0, all = 0;
 
-	for (size_t y = 0; y < height; y++)
-		common += c.common[y];
-	for (size_t i = 0; i < width * height; i++)
+	for (size_t i = 0; i < side * side; i++) {
 		all += c.of[i] != MR_NONE;
-	return all ? (double)common / (double)all : 0;
+		twice += c.second[i] != MR_NONE;
+		if (meet && c.second[i] != MR_NONE)
+			meet(arg, c.of[i], c.second[i]);
+	}
+	return all ? (double)twice / (double)all : 0;
 }
 
 /* ---- tangents ---- */
@@ -241,6 +255,7 @@ typedef struct baking {
 	cover cover;
 	tangents tangents;
 	double spacing; /* area of the target per texel */
+	double sign;    /* -1: the source is turned inside out */
 	size_t n;
 	const size_t *texel;
 	mr_v3 *p, *q; /* place and unit normal of each */
@@ -299,38 +314,80 @@ normal_at(const baking *b, mr_place at)
 	return mr_bary_point(at.bary, b->normal[v[0]], b->normal[v[1]], b->normal[v[2]]);
 }
 
-/* Along the normal, either way, where the surface faces as the target does. */
-static mr_place
-place_along(const baking *b, mr_v3 p, mr_v3 n, mr_closest nearest)
+/* It is no farther than `most`, but for rounding. */
+static mr_closest
+nearest_place(const baking *b, mr_v3 p, double most)
 {
-	double reach = 2 * sqrt(nearest.dist2);
-	mr_place at = nearest.at;
+	mr_closest c = mr_bvh_closest_within(b->bvh, p, most * most * (1 + 1e-9));
 
-	for (int back = 0; reach > 0 && back < 2; back++) {
-		mr_ray_hit hit;
-		if (!mr_bvh_ray(b->bvh, p, mr_mul(back ? -1 : 1, n), 0, reach, &hit) ||
-		    mr_dot(mr_face_cross(&b->s->look.mesh, hit.at.face), n) <= 0)
-			continue;
-		at = hit.at;
-		reach = hit.t;
-	}
-	return at;
+	return c.at.face == MR_NONE ? mr_bvh_closest(b->bvh, p) : c;
 }
 
-/* The place of the texel before is near, and bounds the search. */
+static double
+faces(const baking *b, uint32_t face, mr_v3 n)
+{
+	return b->sign * mr_dot(mr_face_cross(&b->s->look.mesh, face), n);
+}
+
+/* Whether the source is inside out, by the places nearest to the target's faces. */
+static void
+find_sign(baking *b)
+{
+	const mr_mesh *m = &b->t->m;
+	double sum = 0;
+
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		mr_closest c = mr_bvh_closest(b->bvh, mr_mean3(m->p[v[0]], m->p[v[1]], m->p[v[2]]));
+		mr_v3 n = mr_face_cross(m, f);
+		sum += mr_norm(n) * mr_dot(mr_unit(mr_face_cross(&b->s->look.mesh, c.at.face)), mr_unit(n));
+	}
+	b->sign = sum < 0 ? -1 : 1;
+}
+
+/* The nearest place along the normal, either way, where the surface faces as the target does. */
+static bool
+find_along(const baking *b, mr_v3 p, mr_v3 n, double reach, mr_place *at)
+{
+	mr_ray_hit hit;
+	bool found = mr_bvh_ray_both(b->bvh, p, n, reach, &hit);
+
+	if (found && faces(b, hit.at.face, n) <= 0) {
+		found = false;
+		for (int back = 0; back < 2; back++)
+			if (mr_bvh_ray(b->bvh, p, mr_mul(back ? -1 : 1, n), 0, reach, &hit) &&
+			    faces(b, hit.at.face, n) > 0) {
+				found = true;
+				reach = hit.t;
+				*at = hit.at;
+			}
+		return found;
+	}
+	if (found)
+		*at = hit.at;
+	return found;
+}
+
+/* The nearest place is sought where the last one, of a texel before, says too little of how near it is. */
 static void
 look_at_surface(void *arg, size_t begin, size_t end)
 {
 	const baking *b = arg;
 	mr_closest c = { 0 };
+	mr_v3 from = { 0 };
 
 	for (size_t i = begin; i < end; i++) {
 		mr_place at;
-		double bound = i > begin ? mr_norm2(mr_sub(b->p[i], c.point)) * (1 + 1e-12) : INFINITY;
-		c = mr_bvh_closest_within(b->bvh, b->p[i], bound);
-		c = c.at.face == MR_NONE ? mr_bvh_closest(b->bvh, b->p[i]) : c;
-		at = place_along(b, b->p[i], b->q[i], c);
-		b->seen[i] = (seen){ color_at(b, at), normal_at(b, at) };
+		double far = mr_dist(b->p[i], from), near = sqrt(c.dist2);
+		if (i == begin || far > near / 2) {
+			c = nearest_place(b, b->p[i], i == begin ? INFINITY : mr_dist(b->p[i], c.point));
+			from = b->p[i];
+			far = 0;
+			near = sqrt(c.dist2);
+		}
+		if (!find_along(b, b->p[i], b->q[i], 2 * (near + far), &at))
+			at = far > 0 ? nearest_place(b, b->p[i], near + far).at : c.at;
+		b->seen[i] = (seen){ color_at(b, at), mr_mul(b->sign, normal_at(b, at)) };
 	}
 }
 
@@ -393,6 +450,7 @@ prepare_source(mr_ctx *ctx, baking *b)
 	if (!s->mesh.nf)
 		return mr_near_build(ctx, s->mesh.p, s->mesh.nv, &b->near);
 	mr_bvh_build(ctx, &s->mesh, &b->bvh);
+	find_sign(b);
 	return MR_OK;
 }
 
@@ -406,10 +464,14 @@ place_of(const baking *b, size_t texel)
 	const footprint *f = &b->cover.face[face];
 	int64_t x = (int64_t)(texel % b->cover.width) * SUBTEXEL,
 		y = (int64_t)(texel / b->cover.width) * SUBTEXEL;
-	double all = (double)edge(f, 0, f->x[0], f->y[0]);
+	double all = (double)edge(f, 0, f->x[0], f->y[0]), w[3], sum = 0;
 
-	return (mr_place){ face, mr_vec((double)edge(f, 0, x, y) / all, (double)edge(f, 1, x, y) / all,
-				     (double)edge(f, 2, x, y) / all) };
+	for (int k = 0; k < 3; k++) {
+		w[k] = fmax((double)edge(f, k, x, y) / all, 0); /* beside the face: on its border */
+		sum += w[k];
+	}
+	return (mr_place){ face,
+		sum == 1 ? mr_vec(w[0], w[1], w[2]) : mr_vec(w[0] / sum, w[1] / sum, w[2] / sum) };
 }
 
 /* The triangle of the fine surface, and where on it. */
@@ -599,7 +661,7 @@ draw(mr_ctx *ctx, const mr_bake_source *s, const mr_bake_target *t, mr_baked *ba
 	MR_SCOPE(ctx);
 
 	MR_TRY(prepare_source(ctx, &b));
-	b.cover = cover_texture(ctx, t->m.nf, t->uv, t->width, t->height);
+	b.cover = cover_texture(ctx, t->m.nf, t->uv, t->width, t->height, false);
 	b.tangents = tangents_build(ctx, t);
 	for (size_t i = 0; i < t->width * t->height; i++)
 		texels += b.cover.of[i] != MR_NONE;

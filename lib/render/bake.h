@@ -36,17 +36,19 @@ typedef struct mr_baked {
 } mr_baked;
 
 /*
- * Each texel shows the source along the target's normal there, if that is at most twice as far as the nearest
- * place, which it shows else; of points the mean of eight, weighted by distance (Franke, Nielson 1980).
- * Normals are in the target's tangent space (Mikkelsen 2008, "Simulation of wrinkled surfaces revisited"); of
- * points without normals they are those of `fine`.  Texels off the faces continue them for `gutter`; the rest
- * has the mean colour.
+ * Each texel shows the source along the target's normal there, if it faces the same way and is at most some
+ * three times as far as the nearest place, which it shows else; of points the mean of eight, weighted by
+ * distance (Franke, Nielson 1980).  Normals are in the target's tangent space (Mikkelsen 2008, "Simulation of
+ * wrinkled surfaces revisited"); of points without normals they are those of `fine`.  Texels off the faces
+ * continue them for `gutter`; the rest has the mean colour.
  */
 mr_status
 mr_bake_draw(mr_ctx *ctx, const mr_bake_source *s, const mr_bake_target *t, mr_baked *baked) MR_WARN_UNUSED;
 
-/* The share of texels on a face that another face has within it, too. */
-double mr_texture_overlap(mr_ctx *ctx, const mr_mesh *m, const double *uv, size_t width, size_t height);
+/* The share of side x side texels on a face that are within another, too.  meet: is called with the two; or
+ * NULL. */
+double mr_texture_overlap(mr_ctx *ctx, size_t nf, const double *uv, size_t side,
+    void (*meet)(void *arg, uint32_t a, uint32_t b), void *arg);
 
 /* A unit normal in a tangent frame x T + y B + z N = n as a pixel; those that look away are flat, and
  * *turned. */

@@ -9,6 +9,7 @@
 #include "base/disjoint_sets.h"
 #include "base/priority_queue.h"
 #include "mesh/edges.h"
+#include "render/bake.h"
 
 enum { COLUMNS = 512, TURNS = 16 };
 
@@ -266,14 +267,13 @@ flatten_chart(const mr_mesh *m, sheet *s, size_t c, mr_v3 axis)
 }
 
 static sheet
-flatten(mr_ctx *ctx, const mr_mesh *m, growth *g)
+flatten(mr_ctx *ctx, const mr_mesh *m, uint32_t *set, const mr_v3 *axis)
 {
 	sheet s = { .face = MR_NEW(ctx, m->nf, uint32_t), .at = MR_NEW(ctx, 3 * m->nf, flat) };
 	uint32_t *number = MR_NEW(ctx, m->nf, uint32_t);
 
 	for (uint32_t f = 0; f < m->nf; f++)
-		number[f] = mr_sets_root(g->set, f) == f ? (uint32_t)s.charts++
-		                                         : number[mr_sets_root(g->set, f)];
+		number[f] = mr_sets_root(set, f) == f ? (uint32_t)s.charts++ : number[mr_sets_root(set, f)];
 	s.start = MR_NEW_ZERO(ctx, s.charts + 2, size_t);
 	s.size = MR_NEW(ctx, s.charts, flat);
 	for (size_t f = 0; f < m->nf; f++)
@@ -283,7 +283,7 @@ flatten(mr_ctx *ctx, const mr_mesh *m, growth *g)
 	for (size_t f = 0; f < m->nf; f++)
 		s.face[s.start[number[f] + 1]++] = (uint32_t)f;
 	for (size_t c = 0; c < s.charts; c++)
-		flatten_chart(m, &s, c, g->chart[mr_sets_root(g->set, s.face[s.start[c]])].normals.axis);
+		flatten_chart(m, &s, c, axis[s.face[s.start[c]]]);
 	return s;
 }
 
@@ -432,39 +432,99 @@ find_order(mr_ctx *ctx, const sheet *s)
 	return order;
 }
 
+/* Faces that lie on others of their chart, of which the lower goes. */
+typedef struct shadow {
+	const mr_mesh *m;
+	const mr_v3 *axis;
+	bool *under, any;
+} shadow;
+
+static double
+height_of(const shadow *s, uint32_t f)
+{
+	const uint32_t *v = s->m->t[f].v;
+
+	return mr_dot(s->axis[f], mr_mean3(s->m->p[v[0]], s->m->p[v[1]], s->m->p[v[2]]));
+}
+
+static void
+mark_under(void *arg, uint32_t a, uint32_t b)
+{
+	shadow *s = arg;
+
+	s->under[height_of(s, a) < height_of(s, b) ? a : b] = s->any = true;
+}
+
+/* The pieces of charts without what is under them, and of that. */
+static void
+part_charts(mr_ctx *ctx, const mr_mesh *m, const bool *under, uint32_t *set)
+{
+	uint32_t *before = MR_NEW(ctx, m->nf, uint32_t);
+	mr_edges edges;
+
+	for (uint32_t f = 0; f < m->nf; f++)
+		before[f] = mr_sets_root(set, f);
+	mr_sets_begin(set, m->nf);
+	mr_edges_build(ctx, m, &edges);
+	for (size_t e = 0; e < edges.count; e++)
+		for (size_t i = edges.start[e]; i + 1 < edges.start[e + 1]; i++) {
+			uint32_t a = edges.he[i] / 3, b = edges.he[i + 1] / 3;
+			if (before[a] == before[b] && under[a] == under[b])
+				mr_sets_join(set, a, b);
+		}
+}
+
+/* Texture coordinates of the charts as they are. */
+static mr_status
+lay_out(
+    mr_ctx *ctx, const mr_mesh *m, uint32_t *set, const mr_v3 *axis, packing *k, double *uv, size_t *count)
+{
+	double area = 0;
+	sheet *s = MR_NEW(ctx, 1, sheet);
+
+	*s = flatten(ctx, m, set, axis);
+	for (size_t f = 0; f < m->nf; f++)
+		area += area_of(s->at + 3 * f);
+	k->s = s;
+	k->order = find_order(ctx, s);
+	k->place = MR_NEW(ctx, s->charts, flat);
+	if (!(area > 0) || !pack(k, area))
+		return mr_fail(ctx, MR_ERANGE, "%zu charts with a gutter of %g have no room in %gx%g texels",
+		    s->charts, k->gutter, k->side, k->side);
+	for (size_t c = 0; c < s->charts; c++)
+		for (size_t i = 3 * s->start[c]; i < 3 * s->start[c + 1]; i++) {
+			uint32_t h = 3 * s->face[i / 3] + (uint32_t)(i % 3);
+			uv[2 * h] = (k->place[c].x + k->scale * s->at[h].x) / k->side;
+			uv[2 * h + 1] = (k->place[c].y + k->scale * s->at[h].y) / k->side;
+		}
+	*count = s->charts;
+	return MR_OK;
+}
+
 mr_status
 mr_charts(mr_ctx *ctx, const mr_mesh *m, size_t side, size_t gutter, double **uv, size_t *count)
 {
-	double area = 0, *made = MR_NEW(ctx, 6 * m->nf, double);
+	double *made = MR_NEW(ctx, 6 * m->nf, double);
 	growth g = { .ctx = ctx };
-	packing *k;
-	sheet s;
+	mr_v3 *axis;
 	MR_SCOPE(ctx);
 
 	g.chart = MR_NEW(ctx, m->nf, chart);
 	g.set = mr_sets_new(ctx, m->nf);
 	grow_charts(&g, m);
-	s = flatten(ctx, m, &g);
-	for (size_t f = 0; f < m->nf; f++)
-		area += area_of(s.at + 3 * f);
-	k = MR_NEW_ZERO(ctx, 1, packing);
-	*k = (packing){ .s = &s,
-		.order = find_order(ctx, &s),
-		.side = (double)side,
-		.gutter = (double)gutter,
-		.place = MR_NEW(ctx, s.charts, flat) };
-	if (!(area > 0) || !pack(k, area))
-		return mr_fail(ctx, MR_ERANGE,
-		    "%zu charts with a gutter of %zu have no room in %zux%zu texels", s.charts, gutter, side,
-		    side);
-	for (size_t c = 0; c < s.charts; c++)
-		for (size_t i = 3 * s.start[c]; i < 3 * s.start[c + 1]; i++) {
-			uint32_t h = 3 * s.face[i / 3] + (uint32_t)(i % 3);
-			made[2 * h] = (k->place[c].x + k->scale * s.at[h].x) / k->side;
-			made[2 * h + 1] = (k->place[c].y + k->scale * s.at[h].y) / k->side;
-		}
+	axis = MR_NEW(ctx, m->nf, mr_v3);
+	for (uint32_t f = 0; f < m->nf; f++)
+		axis[f] = g.chart[mr_sets_root(g.set, f)].normals.axis;
+	for (bool again = true; again;) {
+		packing k = { .side = (double)side, .gutter = (double)gutter };
+		shadow s = { m, axis, MR_NEW_ZERO(ctx, m->nf, bool), false };
+		MR_TRY(lay_out(ctx, m, g.set, axis, &k, made, count));
+		mr_texture_overlap(ctx, m->nf, made, side, mark_under, &s);
+		again = s.any;
+		if (again)
+			part_charts(ctx, m, s.under, g.set);
+	}
 	*uv = made;
-	*count = s.charts;
 	return MR_OK;
 }
 

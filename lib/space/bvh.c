@@ -392,6 +392,12 @@ mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax,
 	return cast_first(bvh, origin, dir, tmin, tmax, hit);
 }
 
+bool
+mr_bvh_ray_both(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmax, mr_ray_hit *hit)
+{
+	return cast_across(bvh, origin, dir, 0, tmax, hit);
+}
+
 double
 mr_bvh_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax)
 {

@@ -47,6 +47,9 @@ mr_closest mr_bvh_closest_within(const mr_bvh *bvh, mr_v3 q, double dist2);
  */
 bool mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit);
 
+/* The hit with the least |t| <= tmax, before the origin or behind it. */
+bool mr_bvh_ray_both(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmax, mr_ray_hit *hit);
+
 /* How far the nearest hit is, before the origin or behind it, that is no nearer than tmin; tmax where none is
  * nearer than that. */
 double mr_bvh_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax);

@@ -38,17 +38,33 @@ mr-import -q ball.obj -o ball.mrs
 mr-simplify -n 100 ball.mrs -o coarse.mrs
 
 cat >judge.py <<'END2'
-import sys
+import math, sys
 from look import *
-color, off, n = picture(sys.argv[2]), 0, 0
+def dot(a, b): return sum(x * y for x, y in zip(a, b))
+def unit(a): return [x / dot(a, a) ** 0.5 for x in a]
+def cross(a, b): return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+def less(a, b): return [x - y for x, y in zip(a, b)]
+color, off, angles, plain = picture(sys.argv[2]), 0, [], []
+normal = picture(sys.argv[3]) if len(sys.argv) > 3 else None
 for face in corners(sys.argv[1]):
+    e, d = ([less(face[k][j], face[0][j]) for k in (1, 2)] for j in (0, 1))
+    tangent = [a * d[1][1] - b * d[0][1] for a, b in zip(*e)]
     for s in range(1, 8): # places inside, where the texel's own is near
         for t in range(1, 8 - s):
             w = (1 - (s + t) / 8, s / 8, t / 8)
-            p, uv = ([sum(w[k] * face[k][j][i] for k in range(3)) for i in range(m)] for j, m in ((0, 3), (1, 2)))
-            r = sum(x * x for x in p) ** 0.5
-            off, n = max([off] + [abs(c - 255 * (0.5 + 0.4 * x / r)) for c, x in zip(texel(color, *uv), p)]), n + 1
-print('colours are the sphere\'s' if off < 8 else 'off by %g of %d' % (off, n))
+            p, uv, n = ([sum(w[k] * face[k][j][i] for k in range(3)) for i in range(m)] for j, m in ((0, 3), (1, 2), (2, 3)))
+            p, n = unit(p), unit(n)
+            off = max([off] + [abs(c - 255 * (0.5 + 0.4 * x)) for c, x in zip(texel(color, *uv), p)])
+            if normal:
+                x, y, z = (c / 127.5 - 1 for c in texel(normal, *uv))
+                t1 = unit(less(tangent, [dot(tangent, n) * x for x in n]))
+                b1 = cross(n, t1)
+                baked = [x * a + y * b + z * c for a, b, c in zip(t1, b1, n)]
+                angles.append(math.degrees(math.acos(min(1, dot(unit(baked), p)))))
+                plain.append(math.degrees(math.acos(min(1, dot(n, p)))))
+print('colours are the sphere\'s' if off < 8 else 'off by %g' % off)
+if normal:
+    print('normals are the sphere\'s' if sum(angles) < sum(plain) / 2 else 'normals: %g for %g' % (sum(angles), sum(plain)))
 END2
 echo '-- colours of vertices'
 mr-map --bake ball.mrs -w maps/none coarse.mrs >/dev/null
@@ -60,7 +76,7 @@ ls maps
 cat maps/ball.mtl
 mr-info baked.mrs | sed -n '/mesh:/,/mtllib/p' | cut -c1-33
 mr-export maps/ball.obj <baked.mrs
-python3 judge.py maps/ball.obj maps/ball-color.png
+python3 judge.py maps/ball.obj maps/ball-color.png maps/ball-normal.png
 mr-export --materials maps maps/ball.glb <baked.mrs && strings maps/ball.glb | grep -o 'baseColorTexture\|normalTexture' | sort -u
 
 echo '-- the same for every number of threads'
@@ -73,7 +89,7 @@ echo '-- texture coordinates that are there and do not overlap serve'
 mr-map --bake ball.mrs -w again --size 512 --stats stats baked.mrs -o again.mrs
 figures stats
 mr-export again.obj <again.mrs
-python3 judge.py again.obj again-color.png
+python3 judge.py again.obj again-color.png again-normal.png
 
 echo '-- a picture becomes a picture'
 mr-export maps/textured.obj <baked.mrs
