@@ -30,12 +30,12 @@ def texel(picture, u, v):
     return rows[y][3 * x:3 * x + 3]
 END2
 figures() {
-	sed 's/.*"width"/"width"/; s/,"findings.*//; s/}$//; s/"//g' "$@"
+	sed 's/.*"width"/"width"/; s/,"findings.*//; s/}$//; s/"//g; s/texels:[0-9]*/texels:N/; s/charts:[1-9][0-9]*/charts:N/' "$@"
 }
 # Red is x, green is y, blue is z.
 mr-make sphere -n 5000 | mr-export -f obj - | awk '/^v / { print $0, 0.5 + 0.4 * $2, 0.5 + 0.4 * $3, 0.5 + 0.4 * $4; next } { print }' >ball.obj
 mr-import -q ball.obj -o ball.mrs
-mr-simplify -n 100 ball.mrs -o coarse.mrs
+mr-make sphere -n 60 | mr-transform --scale 1,1,0.8 -o coarse.mrs
 
 cat >judge.py <<'END2'
 import math, sys
@@ -53,7 +53,11 @@ for face in corners(sys.argv[1]):
         for t in range(1, 8 - s):
             w = (1 - (s + t) / 8, s / 8, t / 8)
             p, uv, n = ([sum(w[k] * face[k][j][i] for k in range(3)) for i in range(m)] for j, m in ((0, 3), (1, 2), (2, 3)))
-            p, n = unit(p), unit(n)
+            n = unit(n)
+            a = dot(p, n)
+            root = (a * a - dot(p, p) + 1) ** 0.5
+            t0 = min(-a - root, -a + root, key=abs)
+            p = [x + t0 * y for x, y in zip(p, n)] # what the texel sees of the sphere
             off = max([off] + [abs(c - 255 * (0.5 + 0.4 * x)) for c, x in zip(texel(color, *uv), p)])
             if normal:
                 x, y, z = (c / 127.5 - 1 for c in texel(normal, *uv))
@@ -115,7 +119,7 @@ echo '-- refusals'
 refused() {
 	rm -f no-*
 	mr-map "$@" >out 2>err
-	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+	echo "exit $?, $(wc -c <out) bytes: $(sed 's/[0-9]* charts/N charts/; 1q' err)"
 	ls no-* no.mtl 2>/dev/null || true
 }
 mr-make sphere -n 100 --points 50 | mr-export -f xyz - | awk '{ print $1, $2, $3 }' >bare.xyz
