@@ -18,7 +18,7 @@ static const cmd_opt table[] = {
 	    "choose the length to give about so many; 0: do not", NULL },
 	{ 0, "faces", CMD_COUNT, &opts.faces, 0, 2e9, "N",
 	    "choose the length to give about so many; 0: do not", NULL },
-	{ 0, "feature", CMD_REAL, &opts.feature, 0, 180, "DEGREES",
+	{ 0, "feature", CMD_REAL, &opts.feature, 0, 180, "auto|DEGREES",
 	    "keep edges whose faces meet at more; 180: none", NULL },
 	{ 0, "adaptive", CMD_LENGTH, CMD_LENGTH_OF(mr_remesh_opts, opts, adaptive), 0, 1e300, "DISTANCE",
 	    "lengths by curvature: how far an edge may be from the surface; 0: uniform", NULL },
@@ -33,6 +33,8 @@ prepare(cmd *c)
 	MR_TRY(cmd_idle(c, "vertices", opts.faces > 0, "with --faces"));
 	MR_TRY(cmd_idle(c, "length", opts.faces + opts.vertices > 0, "with --vertices or --faces"));
 	MR_TRY(cmd_idle(c, "ratio", opts.faces + opts.vertices > 0, "with --vertices or --faces"));
+	if (opts.feature < 0)
+		opts.feature = 40; /* between the facets of round things and the edges of machined ones */
 	return cmd_idle(c, "gravity", opts.area_passes == 0, "without area passes");
 }
 

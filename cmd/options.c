@@ -18,22 +18,6 @@ fail_range(mr_ctx *ctx, const char *what, const char *text, double min, double m
 	return mr_fail(ctx, MR_EUSAGE, "%s: %s is not between %.15g and %.15g", what, text, min, max);
 }
 
-/* Parses the whole of `text` as a finite number in [min, max]: MR_EUSAGE with a sentence that begins with
- * `what`. */
-static mr_status
-parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double max, double *value)
-{
-	char *end;
-	double x;
-
-	if (!number_at(text, &end, &x) || *end)
-		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is not a number", what, text);
-	if (x < min || x > max)
-		return fail_range(ctx, what, text, min, max);
-	*value = x;
-	return MR_OK;
-}
-
 mr_status
 cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value)
 {
@@ -81,25 +65,28 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 	return MR_OK;
 }
 
-/* A number, or hundredths with a % behind it: *relative; -1 for "auto" where that is allowed. */
+/* A number; where `relative` is not NULL also hundredths, with a % behind it, and where the metavar offers it
+ * "auto", which is -1. */
 static mr_status
-parse_share(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text, bool *relative)
+parse_real(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text, bool *relative)
 {
+	bool percent = false, automatic = !strcmp(text, "auto") && !strncmp(o->metavar, "auto|", 5);
+	double x = -1;
 	char *end;
-	double x;
 
-	*relative = false;
-	if (!strncmp(o->metavar, "auto|", 5) && !strcmp(text, "auto")) {
-		*(double *)o->value = -1;
-		return MR_OK;
+	if (!automatic) {
+		bool number = number_at(text, &end, &x);
+		percent = number && relative && *end == '%';
+		if (!number || end[percent])
+			return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is %s", what, text,
+			    relative ? "neither a number nor a percentage" : "not a number");
+		x /= percent ? 100 : 1;
+		if (x < o->min || x > o->max)
+			return fail_range(ctx, what, text, o->min, o->max);
 	}
-	if (!number_at(text, &end, &x) || end[*end == '%'])
-		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
-	*relative = *end == '%';
-	x /= *relative ? 100 : 1;
-	if (x < o->min || x > o->max)
-		return fail_range(ctx, what, text, o->min, o->max);
 	*(double *)o->value = x;
+	if (relative)
+		*relative = percent;
 	return MR_OK;
 }
 
@@ -157,7 +144,7 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 		*(bool *)o->value = o->kind == CMD_FLAG;
 		return MR_OK;
 	case CMD_REAL:
-		return parse_real(ctx, what, text, o->min, o->max, o->value);
+		return parse_real(ctx, o, what, text, NULL);
 	case CMD_COUNT:
 		return cmd_parse_count(ctx, what, text, (size_t)o->min, (size_t)o->max, o->value);
 	case CMD_CHOICE:
@@ -166,10 +153,10 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 		*(const char **)o->value = text;
 		return MR_OK;
 	case CMD_LENGTH:
-		return parse_share(
+		return parse_real(
 		    ctx, o, what, text, (bool *)(void *)((double *)o->value + 1)); /* behind it */
 	case CMD_SHARE:
-		return parse_share(ctx, o, what, text, &relative);
+		return parse_real(ctx, o, what, text, &relative);
 	case CMD_VECTOR: {
 		double v[3];
 		MR_TRY(cmd_parse_reals(ctx, what, text, 3, v));

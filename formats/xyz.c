@@ -231,6 +231,10 @@ survey(table *t)
 		MR_TRY(row_values(t, &line, x, &n));
 		if (t->rows == 0)
 			MR_TRY(begin_rows(t, &row, n));
+		if (n == 1 && t->counted && x[0] >= 0 && x[0] < MR_NONE) { /* a scan more */
+			t->count += (uint64_t)x[0];
+			continue;
+		}
 		if (n != t->columns)
 			return mr_scan_fail(&t->text, row.p, "%zu columns, where line %zu has %zu", n,
 			    mr_line_number(&t->text, t->first_row), t->columns);

@@ -122,6 +122,7 @@ typedef struct mr_wrap_field {
 } mr_wrap_field;
 
 /* The points as one height field or several, one over the other; none where they are no such thing. */
+enum { MR_WRAP_FIELD_LEAST = 100 }; /* places of one */
 mr_status mr_wrap_find_fields(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap_field **field, size_t *fields);
 
 /* The wrap of the fields of a cloud: open. */

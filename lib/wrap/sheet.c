@@ -20,15 +20,7 @@ static const double NOISE_MOST = 0.5; /* spacings */
  * where it is a layer; of normals' ways from the middle so much is outward of a slab. */
 static const double STEEP = 0.7, REACH = 3, OVER = 0.8, APART = 0.5;
 
-enum {
-	PROBES = 4096,
-	PLACES_LEAST = 100,
-	PLANE_MOST = 128,
-	AROUND = 16,
-	PAIRS = 9,
-	HEIGHTS = 5,
-	LAYERS_MOST = 64
-};
+enum { PROBES = 4096, PLANE_MOST = 128, AROUND = 16, PAIRS = 9, HEIGHTS = 5, LAYERS_MOST = 64 };
 
 /* Spacings around the points: more than half an opening's width. */
 static const double MARGIN = 8;
@@ -173,7 +165,7 @@ count_over(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, u
 
 	for (uint32_t i = 0; i < cloud->n; i++) {
 		uint32_t root = mr_sets_root(set, i);
-		if (root != base && size[root] >= PLACES_LEAST) {
+		if (root != base && size[root] >= MR_WRAP_FIELD_LEAST) {
 			p[n] = flat->p[i];
 			at[n++] = i;
 		}
@@ -187,7 +179,8 @@ count_over(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, u
 		for (size_t k = i * PAIRS; k < (i + 1) * PAIRS && nearest[k] != MR_NONE; k++) {
 			uint32_t other = mr_sets_root(set, nearest[k]);
 			double reach = fmax(cloud->own[at[i]], cloud->own[nearest[k]]);
-			is_over |= dist2[k] < reach * reach && other != root && size[other] >= PLACES_LEAST;
+			is_over |= dist2[k] < reach * reach && other != root &&
+			           size[other] >= MR_WRAP_FIELD_LEAST;
 		}
 		over[root] += is_over;
 	}
@@ -236,7 +229,7 @@ join_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, 
 	MR_TRY(count_over(ctx, cloud, flat, set, size, base, over));
 	*layers = 1;
 	for (uint32_t i = 0; i < cloud->n; i++)
-		if (size[i] >= PLACES_LEAST && over[i] > OVER * size[i])
+		if (size[i] >= MR_WRAP_FIELD_LEAST && over[i] > OVER * size[i])
 			++*layers;
 		else if (size[i] > 0)
 			mr_sets_join(set, i, base);
@@ -329,7 +322,7 @@ mr_wrap_find_fields(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap_field **fie
 	probes q;
 
 	*fields = 0;
-	if (cloud->n < PLACES_LEAST || cloud->sampling.noise > NOISE_MOST * cloud->spacing)
+	if (cloud->n < MR_WRAP_FIELD_LEAST || cloud->sampling.noise > NOISE_MOST * cloud->spacing)
 		return MR_OK;
 	MR_TRY(find_planes(ctx, cloud, &q));
 	if (find_axes(&q, axis) > UPRIGHT_MOST)

@@ -39,7 +39,7 @@ try '//X Y Z R G B Scalar field Nx Ny Nz\n0 0 0 9 9 9 0.5 0 0 1\n'
 try '//X Y Z R G B I\n2\n0 0 0 9 9 9 0.5\n1 0 0 9 9 9 0.5\n'
 try '"x","y","z","Scalar field","Scalar field #2"\n0,0,0,1,2\n'
 echo '-- several clouds of a PTS'
-try '2\n0 0 0 9 1 2 3\n1 0 0 9 1 2 3\n2 0 0 9 1 2 3\n1\n'
+try '2\n0 0 0 9 1 2 3\n1 0 0 9 1 2 3\n1\n2 0 0 9 1 2 3\n'
 echo '-- words that are no numbers'
 for word in nan -NaN 'nan(ind)' inf -Infinity infra nancy 1.#x; do
 	try "1 2 3 0.5\n1 2 3 $word\n" | grep -v property
