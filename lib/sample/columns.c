@@ -1,7 +1,9 @@
-/* What points have beside their places, at the vertices of the surface that is displaced to them. */
+/* What points, or a mesh, have beside their places, at the vertices of the surface that is displaced to them.
+ */
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "sample/parts.h"
+#include "space/bvh.h"
 
 enum { LOOKED_AT = 16, NEAREST = 6, CHUNK = 1 << 13, GRAIN = 256 };
 
@@ -146,4 +148,42 @@ mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const m
 	MR_TRY(carry(ctx, &j, vertex, column, count));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+typedef struct mesh_job {
+	const mr_mesh *m;
+	const mr_bvh *bvh;
+	const mr_v3 *vertex;
+	uint32_t *parent; /* three of each vertex, and their weights */
+	double *weight;
+} mesh_job;
+
+static void
+place_vertices(void *arg, size_t begin, size_t end)
+{
+	const mesh_job *j = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_place at = mr_bvh_closest(j->bvh, j->vertex[i]).at;
+		memcpy(j->parent + 3 * i, j->m->t[at.face].v, 3 * sizeof *j->parent);
+		memcpy(j->weight + 3 * i, &at.bary, sizeof at.bary);
+	}
+}
+
+void
+mr_sample_mesh_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const mr_mesh *m,
+    const mr_carried *column, size_t count)
+{
+	MR_SCOPE(ctx);
+	size_t n = d->m.nv;
+	mr_v3 *vertex = MR_NEW(ctx, n, mr_v3);
+	mesh_job j = { m, NULL, vertex, MR_NEW(ctx, 3 * n, uint32_t), MR_NEW(ctx, 3 * n, double) };
+	mr_bvh *bvh;
+
+	mr_domain_displace(ctx, d, height, 1, vertex);
+	mr_bvh_build(ctx, m, &bvh);
+	j.bvh = bvh;
+	mr_parallel(ctx, n, GRAIN, place_vertices, &j);
+	for (size_t i = 0; i < count; i++)
+		mr_carried_make(ctx, &column[i], 1, 0, (mr_rows_from){ n, 3, j.parent, j.weight });
 }

@@ -30,4 +30,8 @@ mr_status mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, c
 mr_status mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const mr_v3 *point,
     const mr_sampling *sampling, const mr_carried *column, size_t count);
 
+/* The same of the vertices of a mesh, each from the nearest place on it. */
+void mr_sample_mesh_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const mr_mesh *m,
+    const mr_carried *column, size_t count);
+
 #endif

@@ -56,7 +56,7 @@ get_columns(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, size_t nv, mr_carri
 	return MR_OK;
 }
 
-/* Puts what the points have beside their places, at the vertices. */
+/* Puts what the points, or the mesh, have beside their places, at the vertices. */
 static mr_status
 put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points, const mr_sampling *s,
     const double *height)
@@ -67,7 +67,10 @@ put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points,
 	MR_TRY(get_columns(ctx, f, points, d->m.nv, carried, &count));
 	if (count == 0)
 		return MR_OK;
-	MR_TRY(mr_sample_columns(ctx, d, height, points->p, s, carried, count));
+	if (points->nf)
+		mr_sample_mesh_columns(ctx, d, height, points, carried, count);
+	else
+		MR_TRY(mr_sample_columns(ctx, d, height, points->p, s, carried, count));
 	return mr_carried_put(ctx, f, "displacement", carried, count);
 }
 
@@ -103,7 +106,7 @@ sample(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *o, mr_sample_result *resu
 	result->vertices = d.m.nv;
 	mr_frame_drop(f, "displacement", NULL, 0);
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
-	return target.nf ? MR_OK : put_columns(ctx, f, &d, &target, &sampling, height);
+	return put_columns(ctx, f, &d, &target, &sampling, height);
 }
 
 mr_status
