@@ -85,7 +85,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_map_result, seams),
 	CMD_COUNTED(mr_map_result, texels),
 	CMD_COUNTED(mr_map_result, charts),
-	CMD_MEASURED(mr_map_result, stretched),
 	{ 0 },
 };
 

@@ -99,57 +99,43 @@ find_texture(mr_ctx *ctx, const mr_model *m, const mr_bake_opts *o, mr_bake_targ
 		MR_TRY(mr_charts(ctx, &t->m, o->side, o->gutter, &made, &r->charts));
 		t->uv = made;
 	}
-	r->stretched = mr_texture_stretched(&t->m, t->uv, 1);
 	return MR_OK;
 }
 
-/* The displaced surface, whose limit normals control has. */
+/* The displaced surface, and control's limit normals, which it gets. */
 static mr_status
-find_fine(mr_ctx *ctx, mr_frame *f, mr_bake_target *t, const mr_v3 **normal)
+find_displaced(mr_ctx *ctx, mr_frame *f, mr_bake_target *t)
 {
 	const double *height;
 	mr_domain d;
-	mr_v3 *p, *n;
 	size_t level;
 
 	MR_TRY(mr_displacement_get(ctx, f, &t->m, &level, &height));
 	MR_TRY(mr_domain_of(ctx, f, &t->m, level, &d));
-	t->fine = d.m;
 	t->grid = (mr_atlas){ .faces = t->m.nf, .level = level, .segments = (size_t)1 << level };
 	mr_atlas_fill(ctx, d.m.t, &t->grid);
-	p = MR_NEW(ctx, d.m.nv, mr_v3);
-	n = MR_NEW(ctx, d.m.nv, mr_v3);
-	mr_domain_displace(ctx, &d, height, 1, p);
-	t->fine.p = p;
-	mr_vertex_normals(&t->fine, n);
-	t->fine_normal = n;
-	*normal = d.normal;
-	return MR_OK;
+	mr_map_displace(ctx, &d, height, t);
+	mr_frame_drop(f, "control", "corner_normal", 0);
+	return mr_layer_put(ctx, f, "control", "normal", d.normal, t->m.nv);
 }
 
 /* The normals that the target is shaded with: its own, else those of its faces around, which it gets. */
 static mr_status
 find_normals(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m, mr_bake_target *t)
 {
-	const mr_v3 *vertex = m->normal, *corner = m->corner_normal;
-	mr_v3 *unit = MR_NEW(ctx, 3 * t->m.nf, mr_v3);
+	const mr_v3 *vertex = m->normal;
+	mr_v3 *unit = MR_NEW(ctx, 3 * t->m.nf, mr_v3), *made = vertex ? NULL : MR_NEW(ctx, t->m.nv, mr_v3);
 
-	if (!strcmp(layer, "control") && mr_layer_has(f, "displacement", "height")) {
-		MR_TRY(find_fine(ctx, f, t, &vertex));
-		corner = NULL;
-	} else if (!vertex) {
-		mr_v3 *n = MR_NEW(ctx, t->m.nv, mr_v3);
-		mr_vertex_normals(&t->m, n);
-		vertex = n;
+	if (made) {
+		mr_vertex_normals(&t->m, made);
+		vertex = made;
 	}
-	for (size_t c = 0; c < 3 * t->m.nf; c++)
-		unit[c] = mr_unit(
-		    corner && mr_norm2(corner[c]) > 0 ? corner[c] : vertex[t->m.t[c / 3].v[c % 3]]);
+	for (size_t c = 0; c < 3 * t->m.nf; c++) {
+		const mr_v3 *own = m->corner_normal ? &m->corner_normal[c] : NULL;
+		unit[c] = mr_unit(own && mr_norm2(*own) > 0 ? *own : vertex[t->m.t[c / 3].v[c % 3]]);
+	}
 	t->normal = unit;
-	if (corner || vertex == m->normal)
-		return MR_OK;
-	mr_frame_drop(f, layer, "corner_normal", 0);
-	return mr_layer_put(ctx, f, layer, "normal", vertex, t->m.nv);
+	return made && !m->corner_normal ? mr_layer_put(ctx, f, layer, "normal", made, t->m.nv) : MR_OK;
 }
 
 /* ---- all ---- */
@@ -182,19 +168,19 @@ bake(mr_ctx *ctx, mr_frame *f, mr_frame *from, const char *name, const mr_bake_o
 	mr_bake_target target = { .gutter = o->gutter };
 	mr_baked baked;
 	mr_model m;
+	bool displaced;
 
 	mr_unmeasured(r, sizeof *r);
 	MR_TRY(mr_check_number(ctx, "side", (double)o->side, 1, 32767));
 	MR_TRY(mr_check_number(ctx, "gutter", (double)o->gutter, 1, 256));
 	MR_TRY(mr_map_check_name(ctx, name));
-	if (!layer && mr_layer_has(f, "displacement", "height"))
-		layer = "control";
-	MR_TRY(mr_layer_result(ctx, f, layer, &layer));
+	displaced = mr_layer_has(f, "displacement", "height") && (!layer || !strcmp(layer, "control"));
+	MR_TRY(mr_layer_result(ctx, f, displaced ? "control" : layer, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &target.m));
 	MR_TRY(mr_model_get(ctx, f, layer, &m));
 	MR_TRY(find_source(ctx, from, o, &source));
 	MR_TRY(find_texture(ctx, &m, o, &target, r));
-	MR_TRY(find_normals(ctx, f, layer, &m, &target));
+	MR_TRY(displaced ? find_displaced(ctx, f, &target) : find_normals(ctx, f, layer, &m, &target));
 	if (!source.colored && !source.look.mesh.nf && !source.look.normal && !target.fine.nf)
 		return mr_fail(ctx, MR_EMISSING, "the source has neither colours nor normals");
 	MR_TRY(mr_bake_draw(ctx, &source, &target, &baked));

@@ -3,7 +3,7 @@
 #define MR_MAP_H
 
 #include "formats/png.h"
-#include "subdivide/atlas.h"
+#include "render/bake.h"
 #include "subdivide/displaced.h"
 
 /* Texts in the picture of heights: the level; the heights of black and white; its width and height. */
@@ -29,6 +29,9 @@ mr_status mr_map_write_material(mr_ctx *ctx, const char *name, const char *state
  * reports what they replace. */
 mr_status mr_map_put_material(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const double *uv,
     const char *name) MR_WARN_UNUSED;
+
+/* The displaced surface as what t->m stands for, and the limit normals of its corners, in the arena. */
+void mr_map_displace(mr_ctx *ctx, const mr_domain *d, const double *height, mr_bake_target *t);
 
 /* The texture coordinates of an atlas: 6 a face, in the arena. */
 double *mr_map_texcoords(mr_ctx *ctx, const mr_atlas *a);

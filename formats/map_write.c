@@ -21,10 +21,8 @@ typedef struct mapping {
 	mr_domain domain;
 	mr_atlas atlas;
 	double low, high;
-	size_t *count; /* of each row: heights out of the range, or normals turned away */
+	size_t *count; /* of each row: heights out of the range */
 	mr_gray gray;
-	mr_image image;
-	mr_v3 *normal; /* of the displaced surface */
 } mapping;
 
 /* ---- heights ---- */
@@ -125,79 +123,39 @@ write_heights(mr_ctx *ctx, mapping *m, const char *path)
 
 /* ---- normals ---- */
 
-/*
- * The frame in which a program shades control: tangent and normal are those of the corners, interpolated and
- * not made unit, the bitangent is their cross product (Mikkelsen 2008, Simulation of wrinkled surfaces
- * revisited).  The tangent is where u increases, from corner 0 to 1, and back on a triangle that is turned.
- */
-static void
-frame_at(const mapping *m, const mr_texel *t, mr_v3 frame[3])
+void
+mr_map_displace(mr_ctx *ctx, const mr_domain *d, const double *height, mr_bake_target *t)
 {
-	const uint32_t *v = m->control.t[t->face].v;
-	mr_v3 along = mr_unit(mr_sub(m->control.p[v[1]], m->control.p[v[0]])), tangent[3], normal[3];
-	mr_v3 bary = mr_vec(1 - t->b - t->c, t->b, t->c);
+	mr_v3 *p = MR_NEW(ctx, d->m.nv, mr_v3), *n = MR_NEW(ctx, d->m.nv, mr_v3);
+	mr_v3 *corner = MR_NEW(ctx, 3 * t->m.nf, mr_v3);
 
-	if (t->face % 2)
-		along = mr_mul(-1, along);
-	for (int k = 0; k < 3; k++) {
-		normal[k] = m->domain.normal[v[k]];
-		tangent[k] = mr_unit(mr_axpy(-mr_dot(along, normal[k]), normal[k], along));
-	}
-	frame[0] = mr_bary_point(bary, tangent[0], tangent[1], tangent[2]);
-	frame[2] = mr_bary_point(bary, normal[0], normal[1], normal[2]);
-	frame[1] = mr_cross(frame[2], frame[0]);
-}
-
-static mr_v3
-normal_of(const mapping *m, const mr_texel *t)
-{
-	return mr_add(m->normal[t->v[0]], mr_sub(m->normal[t->v[1]], m->normal[t->v[2]]));
-}
-
-static void
-draw_normals(void *arg, size_t begin, size_t end)
-{
-	mapping *m = arg;
-
-	for (size_t y = begin; y < end; y++) {
-		m->count[y] = 0;
-		for (size_t x = 0; x < m->atlas.width; x++) {
-			mr_texel t = mr_atlas_texel(&m->atlas, x, y);
-			mr_rgb *pixel = &m->image.pixel[y * m->image.width + x];
-			mr_v3 frame[3] = { { 0 } };
-			bool turned = false;
-			if (t.face != MR_NONE)
-				frame_at(m, &t, frame);
-			*pixel = mr_normal_pixel(
-			    frame, t.face != MR_NONE ? normal_of(m, &t) : mr_vec(0, 0, 1), &turned);
-			m->count[y] += turned && t.v[1] == t.v[2];
-		}
-	}
-}
-
-static void
-displaced_normals(mr_ctx *ctx, mapping *m)
-{
-	mr_mesh surface = m->domain.m;
-	mr_v3 *p;
-
-	m->normal = MR_NEW(ctx, surface.nv, mr_v3);
-	MR_SCOPE(ctx);
-	p = MR_NEW(ctx, surface.nv, mr_v3);
-	mr_domain_displace(ctx, &m->domain, m->height, 1, p);
-	surface.p = p;
-	mr_vertex_normals(&surface, m->normal);
+	mr_domain_displace(ctx, d, height, 1, p);
+	t->fine = d->m;
+	t->fine.p = p;
+	mr_vertex_normals(&t->fine, n);
+	t->fine_normal = n;
+	for (size_t c = 0; c < 3 * t->m.nf; c++)
+		corner[c] = d->normal[t->m.t[c / 3].v[c % 3]];
+	t->normal = corner;
 }
 
 static mr_status
-write_normals(mr_ctx *ctx, mapping *m, const char *path)
+write_normals(mr_ctx *ctx, const mapping *m, const char *path, size_t *turned)
 {
+	mr_bake_source none = { 0 };
+	mr_bake_target t = { .m = m->control,
+		.uv = mr_map_texcoords(ctx, &m->atlas),
+		.grid = m->atlas,
+		.width = m->atlas.width,
+		.height = m->atlas.height,
+		.gutter = m->atlas.gutter };
+	mr_baked baked;
 	MR_SCOPE(ctx);
 
-	displaced_normals(ctx, m);
-	MR_TRY(mr_image_new(ctx, m->atlas.width, m->atlas.height, (mr_rgb){ 0, 0, 0 }, &m->image));
-	mr_parallel(ctx, m->atlas.height, GRAIN, draw_normals, m);
-	return mr_png_write(ctx, path, &m->image);
+	mr_map_displace(ctx, &m->domain, m->height, &t);
+	MR_TRY(mr_bake_draw(ctx, &none, &t, &baked));
+	*turned = baked.turned;
+	return mr_png_write(ctx, path, &baked.normal);
 }
 
 /* ---- what names the pictures ---- */
@@ -315,8 +273,7 @@ write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 	MR_TRY(mr_map_check_place(ctx, name));
 	MR_TRY(write_heights(ctx, m, heights));
 	found->clipped = count_rows(m);
-	MR_TRY(write_normals(ctx, m, normals));
-	found->turned = count_rows(m);
+	MR_TRY(write_normals(ctx, m, normals, &found->turned));
 	/* disp and its option -mm (Wavefront, "Advanced Visualizer", appendix B2): a texel's value is times
 	 * the gain and plus the base.  norm is what programs of today add. */
 	MR_TRY(mr_map_write_material(ctx, name,

@@ -910,7 +910,6 @@ typedef struct mr_map_result {
 	size_t clipped, turned; /* written: texels of heights out of the range, of normals away from control */
 	size_t between, seams;  /* read: vertices on no texel, and of other heights across a seam */
 	size_t texels, charts;  /* baked: on faces; 0 in texture coordinates that were there */
-	double stretched;       /* the share of the area where a length is off from the mean by more than twice */
 } mr_map_result;
 
 /* Writes NAME-height.png, NAME-normal.png and NAME.mtl, which names them, and gives control a material,

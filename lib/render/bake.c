@@ -9,14 +9,15 @@ enum { SUBTEXEL = 256, BAND = 64, NEAR = 8, GRAIN = 512 };
 
 /* ---- which face a texel is on ---- */
 
-/* A face in the texture: 256ths of a texel from the centre of the first, y downwards. */
+/* A face in the texture: whole 256ths of a texel from the centre of the first, y downwards.  What is computed
+ * of them is exact. */
 typedef struct footprint {
-	int64_t x[3], y[3];
+	double x[3], y[3];
 } footprint;
 
 /* Twice the area of the corners beside k and a place. */
-static int64_t
-edge(const footprint *f, int k, int64_t x, int64_t y)
+static double
+edge(const footprint *f, int k, double x, double y)
 {
 	int a = (k + 1) % 3, b = (k + 2) % 3;
 
@@ -30,68 +31,46 @@ typedef struct cover {
 	uint32_t *second; /* another that it is within; NULL: not asked for */
 } cover;
 
-static int64_t
-to_fixed(double share, size_t texels)
+/* The texels from `begin` on, below `end`, that the corners reach, within some of them. */
+typedef struct span {
+	size_t begin, end;
+} span;
+
+static span
+span_of(const double x[3], double around, size_t begin, size_t end)
 {
-	return llrint((share * (double)texels - 0.5) * SUBTEXEL);
+	double first = ceil((fmin(fmin(x[0], x[1]), x[2]) - around) / SUBTEXEL);
+	double last = floor((fmax(fmax(x[0], x[1]), x[2]) + around) / SUBTEXEL);
+
+	return (span){ (size_t)fmax(first, (double)begin), (size_t)fmax(fmin(last + 1, (double)end), 0) };
 }
 
-static int64_t
-least(const int64_t x[3])
-{
-	int64_t m = x[0] < x[1] ? x[0] : x[1];
-
-	return m < x[2] ? m : x[2];
-}
-
-static int64_t
-most(const int64_t x[3])
-{
-	int64_t m = x[0] > x[1] ? x[0] : x[1];
-
-	return m > x[2] ? m : x[2];
-}
-
-/* The first whole texel that is no less, and the first that is greater. */
-static int64_t
-first_from(int64_t x)
-{
-	return x <= 0 ? 0 : (x + SUBTEXEL - 1) / SUBTEXEL;
-}
-
-static int64_t
-first_after(int64_t x, size_t end)
-{
-	int64_t e = x < 0 ? 0 : x / SUBTEXEL + 1;
-
-	return e < (int64_t)end ? e : (int64_t)end;
-}
-
-/* The lowest face has a texel that several have, as on their edge.  around: also those that are nobody's
+/* The lowest face has a texel that several have, as on their edge.  around: those, too, that are nobody's
  * within half a texel, which slivers need. */
 static void
-cover_face(const cover *c, uint32_t i, size_t top, size_t bottom, bool around)
+cover_face(const cover *c, uint32_t i, span rows, bool around)
 {
 	const footprint *f = &c->face[i];
-	int64_t area = edge(f, 0, f->x[0], f->y[0]), sign = area < 0 ? -1 : 1,
-		reach = around ? SUBTEXEL / 2 : 0;
-	int64_t y0 = first_from(least(f->y) - reach), y1 = first_after(most(f->y) + reach, bottom), beyond[3];
-	int64_t x0 = first_from(least(f->x) - reach), x1 = first_after(most(f->x) + reach, c->width);
+	double area = edge(f, 0, f->x[0], f->y[0]), reach = around ? SUBTEXEL / 2 : 0, beyond[3];
+	span ys = span_of(f->y, reach, rows.begin, rows.end), xs = span_of(f->x, reach, 0, c->width);
 
+	if (ys.begin >= ys.end)
+		return;
 	for (int k = 0; k < 3; k++)
-		beyond[k] = -reach * (int64_t)hypot((double)(f->x[(k + 1) % 3] - f->x[(k + 2) % 3]),
-					 (double)(f->y[(k + 1) % 3] - f->y[(k + 2) % 3]));
-	for (int64_t y = y0 > (int64_t)top ? y0 : (int64_t)top; area != 0 && y < y1; y++)
-		for (int64_t x = x0; x < x1; x++) {
-			int64_t w[3];
-			size_t texel = (size_t)y * c->width + (size_t)x;
+		beyond[k] = -reach * hypot(f->x[(k + 1) % 3] - f->x[(k + 2) % 3],
+					 f->y[(k + 1) % 3] - f->y[(k + 2) % 3]);
+	for (size_t y = ys.begin; area != 0 && y < ys.end; y++)
+		for (size_t x = xs.begin; x < xs.end; x++) {
+			size_t texel = y * c->width + x;
+			double w[3];
 			for (int k = 0; k < 3; k++)
-				w[k] = sign * edge(f, k, x * SUBTEXEL, y * SUBTEXEL);
+				w[k] = copysign(1, area) *
+				       edge(f, k, (double)x * SUBTEXEL, (double)y * SUBTEXEL);
 			if (w[0] < beyond[0] || w[1] < beyond[1] || w[2] < beyond[2])
 				continue;
 			if (c->of[texel] == MR_NONE)
 				c->of[texel] = i;
-			else if (c->second && !around && w[0] && w[1] && w[2])
+			else if (c->second && !around && w[0] > 0 && w[1] > 0 && w[2] > 0)
 				c->second[texel] = i;
 		}
 }
@@ -102,13 +81,17 @@ cover_bands(void *arg, size_t begin, size_t end)
 	const cover *c = arg;
 
 	for (size_t band = begin; band < end; band++) {
-		size_t top = band * BAND, bottom = top + BAND < c->height ? top + BAND : c->height;
+		span rows = { band * BAND, band * BAND + BAND < c->height ? band * BAND + BAND : c->height };
 		for (int around = 0; around < 2; around++)
 			for (uint32_t i = 0; i < c->faces; i++)
-				if (least(c->face[i].y) < (int64_t)(bottom + 1) * SUBTEXEL &&
-				    most(c->face[i].y) >= ((int64_t)top - 1) * SUBTEXEL)
-					cover_face(c, i, top, bottom, around);
+				cover_face(c, i, rows, around);
 	}
+}
+
+static double
+to_fixed(double share, size_t texels)
+{
+	return rint((share * (double)texels - 0.5) * SUBTEXEL);
 }
 
 static cover
@@ -220,8 +203,9 @@ tangents_build(mr_ctx *ctx, const mr_bake_target *t)
 	return g;
 }
 
-mr_rgb
-mr_normal_pixel(const mr_v3 frame[3], mr_v3 n, bool *turned)
+/* A unit normal in a tangent frame x T + y B + z N = n; one that looks away is flat. */
+static mr_rgb
+normal_pixel(const mr_v3 frame[3], mr_v3 n, bool *turned)
 {
 	double det = mr_dot(frame[0], mr_cross(frame[1], frame[2])), size;
 	/* Cramer's rule; along N where the frame is none */
@@ -429,9 +413,9 @@ look_at_points(void *arg, size_t begin, size_t end)
 static mr_status
 look(mr_ctx *ctx, const baking *b)
 {
-	if (b->bvh)
+	if (b->bvh) {
 		mr_parallel(ctx, b->n, GRAIN, look_at_surface, (void *)(uintptr_t)b);
-	else {
+	} else if (b->near) {
 		MR_TRY(mr_near_query(ctx, b->near, b->p, b->n, NEAR, b->index, b->dist2));
 		mr_parallel(ctx, b->n, GRAIN, look_at_points, (void *)(uintptr_t)b);
 	}
@@ -448,7 +432,7 @@ prepare_source(mr_ctx *ctx, baking *b)
 		mr_vertex_normals(&s->mesh, normal);
 	b->normal = normal ? normal : s->normal;
 	if (!s->mesh.nf)
-		return mr_near_build(ctx, s->mesh.p, s->mesh.nv, &b->near);
+		return s->mesh.nv == 0 ? MR_OK : mr_near_build(ctx, s->mesh.p, s->mesh.nv, &b->near);
 	mr_bvh_build(ctx, &s->mesh, &b->bvh);
 	find_sign(b);
 	return MR_OK;
@@ -462,12 +446,12 @@ place_of(const baking *b, size_t texel)
 {
 	uint32_t face = b->cover.of[texel];
 	const footprint *f = &b->cover.face[face];
-	int64_t x = (int64_t)(texel % b->cover.width) * SUBTEXEL,
-		y = (int64_t)(texel / b->cover.width) * SUBTEXEL;
-	double all = (double)edge(f, 0, f->x[0], f->y[0]), w[3], sum = 0;
+	double x = (double)(texel % b->cover.width) * SUBTEXEL;
+	double y = (double)(texel / b->cover.width) * SUBTEXEL;
+	double all = edge(f, 0, f->x[0], f->y[0]), w[3], sum = 0;
 
 	for (int k = 0; k < 3; k++) {
-		w[k] = fmax((double)edge(f, k, x, y) / all, 0); /* beside the face: on its border */
+		w[k] = fmax(edge(f, k, x, y) / all, 0); /* beside the face: on its border */
 		sum += w[k];
 	}
 	return (mr_place){ face,
@@ -546,7 +530,7 @@ paint_texels(void *arg, size_t begin, size_t end)
 		frame[2] = corner_mean(t->normal, at);
 		frame[1] = mr_mul(b->tangents.mirrored[at.face] ? -1 : 1, mr_cross(frame[2], frame[0]));
 		n = mr_norm2(n) > 0 ? mr_unit(n) : b->q[i];
-		b->baked->normal.pixel[b->texel[i]] = mr_normal_pixel(frame, n, &turned);
+		b->baked->normal.pixel[b->texel[i]] = normal_pixel(frame, n, &turned);
 		b->turned[i] = turned;
 	}
 }
@@ -640,9 +624,9 @@ draw_band(mr_ctx *ctx, baking *b, size_t top, size_t bottom)
 	b->texel = texel;
 	b->p = MR_NEW(ctx, b->n, mr_v3);
 	b->q = MR_NEW(ctx, b->n, mr_v3);
-	b->seen = MR_NEW(ctx, b->n, seen);
-	b->index = b->bvh ? NULL : MR_NEW(ctx, NEAR * b->n, uint32_t);
-	b->dist2 = b->bvh ? NULL : MR_NEW(ctx, NEAR * b->n, double);
+	b->seen = MR_NEW_ZERO(ctx, b->n, seen);
+	b->index = !b->near ? NULL : MR_NEW(ctx, NEAR * b->n, uint32_t);
+	b->dist2 = !b->near ? NULL : MR_NEW(ctx, NEAR * b->n, double);
 	b->turned = MR_NEW_ZERO(ctx, b->n, bool);
 	mr_parallel(ctx, b->n, GRAIN, place_texels, b);
 	MR_TRY(b->n ? look(ctx, b) : MR_OK);

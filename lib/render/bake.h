@@ -11,7 +11,7 @@
 #include "render/raster.h"
 #include "subdivide/atlas.h"
 
-/* What is baked. */
+/* What is baked; nothing, where the target's own fine surface is. */
 typedef struct mr_bake_source {
 	mr_subject look;            /* a surface, or points; normal: nv, of a surface, too, or NULL */
 	const mr_v3 *corner_normal; /* 3 nf, unit, zero where there is none; NULL: see look.normal */
@@ -49,9 +49,5 @@ mr_bake_draw(mr_ctx *ctx, const mr_bake_source *s, const mr_bake_target *t, mr_b
  * NULL. */
 double mr_texture_overlap(mr_ctx *ctx, size_t nf, const double *uv, size_t side,
     void (*meet)(void *arg, uint32_t a, uint32_t b), void *arg);
-
-/* A unit normal in a tangent frame x T + y B + z N = n as a pixel; those that look away are flat, and
- * *turned. */
-mr_rgb mr_normal_pixel(const mr_v3 frame[3], mr_v3 n, bool *turned);
 
 #endif

@@ -17,10 +17,4 @@
 mr_status mr_charts(
     mr_ctx *ctx, const mr_mesh *m, size_t side, size_t gutter, double **uv, size_t *count) MR_WARN_UNUSED;
 
-/*
- * The share of the area where a length is more than twice, or less than half, of what it is in the mean,
- * which is sqrt(area of the texture / area of the surface).  aspect: the texture's width over its height.
- */
-double mr_texture_stretched(const mr_mesh *m, const double *uv, double aspect);
-
 #endif

@@ -66,6 +66,16 @@ for face in corners(sys.argv[1]):
                 baked = [x * a + y * b + z * c for a, b, c in zip(t1, b1, n)]
                 angles.append(math.degrees(math.acos(min(1, dot(unit(baked), p)))))
                 plain.append(math.degrees(math.acos(min(1, dot(n, p)))))
+def stretch(face): # least and greatest length of the texture for one on the face, and both areas
+    e, d = ([less(face[k][j], face[0][j]) for k in (1, 2)] for j in (0, 1))
+    (a, b, c), (A, B, C) = ((dot(v[0], v[0]), dot(v[0], v[1]), dot(v[1], v[1])) for v in (e, d))
+    det, half = a * c - b * b, (A * c + C * a - 2 * B * b) / 2
+    root = max(half * half - det * (A * C - B * B), 0) ** 0.5
+    return ((half - root) / det) ** 0.5, ((half + root) / det) ** 0.5, det ** 0.5, (A * C - B * B) ** 0.5
+of = [stretch(face) for face in corners(sys.argv[1])]
+mean = (sum(s[3] for s in of) / sum(s[2] for s in of)) ** 0.5
+if any(s[1] > 2 * mean or s[0] < mean / 2 for s in of):
+    print('stretched')
 print('colours are the sphere\'s' if off < 8 else 'off by %g' % off)
 if normal:
     print('normals are the sphere\'s' if sum(angles) < sum(plain) / 2 else 'normals: %g for %g' % (sum(angles), sum(plain)))
