@@ -264,6 +264,25 @@ is_over(const mr_mesh *m, uint32_t face, mr_v3 q, mr_place *at)
 	return true;
 }
 
+void
+mr_correspond_soon(const mr_correspondence *c, const mr_mesh *base, size_t i, size_t end)
+{
+	enum { SOON = 8 };
+	const size_t *start = c->inc->start;
+	uint32_t first = i + 3 * SOON < end ? c->label[i + 3 * SOON] : MR_NONE;
+	uint32_t second = i + 2 * SOON < end ? c->label[i + 2 * SOON] : MR_NONE;
+	uint32_t third = i + SOON < end ? c->label[i + SOON] : MR_NONE;
+
+	if (first != MR_NONE) {
+		__builtin_prefetch(&start[first]);
+		__builtin_prefetch(&base->p[first]);
+	}
+	if (second != MR_NONE)
+		__builtin_prefetch(&c->inc->face[start[second]]);
+	if (third != MR_NONE)
+		__builtin_prefetch(&base->t[c->inc->face[start[third]]]);
+}
+
 mr_place
 mr_correspond_near(const mr_correspondence *c, const mr_mesh *base, size_t i)
 {

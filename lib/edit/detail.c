@@ -3,12 +3,13 @@
 #include "edit/detail.h"
 
 #include "base/parallel.h"
+#include "base/vectors.h"
 #include "edit/correspondence.h"
 #include "edit/phong_projection.h"
 #include "edit/turns.h"
 #include "space/bvh.h"
 
-enum { GRAIN = 1024, LOOKS = 16 };
+enum { GRAIN = 1024, LOOKS = 16, SOON = 16 };
 
 /* o in the frame there */
 static mr_v3
@@ -136,6 +137,7 @@ find_easy_feet(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		mr_place near = mr_correspond_near(e->map, e->ground.surface.m, i);
+		mr_correspond_soon(e->map, e->ground.surface.m, i, end);
 		settle(e, i,
 		    near.face != MR_NONE && walk_to_foot(e, i, near) && is_likely(e, i, near) &&
 			is_sound(e, &e->foot[i]) && faces_alike(e, i, &e->foot[i]));
@@ -175,7 +177,10 @@ part_far_feet(const encoder *e)
 	const double far2 = 16;
 	const mr_mesh *m = e->mesh;
 
-	for (size_t f = 0; f < m->nf; f++)
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *soon = m->t[f + SOON < m->nf ? f + SOON : f].v;
+		mr_soon(m->p, sizeof *m->p, soon);
+		mr_soon(e->stand, sizeof *e->stand, soon);
 		for (int k = 0; k < 3; k++) {
 			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
 			if (a < b && e->sound[a] && e->sound[b] &&
@@ -183,6 +188,7 @@ part_far_feet(const encoder *e)
 				far2 * mr_norm2(mr_sub(m->p[a], m->p[b])))
 				e->sound[a] = e->sound[b] = false;
 		}
+	}
 }
 
 static bool
@@ -375,19 +381,17 @@ decode_vertex(const decoder *j, size_t i)
 static void
 decode_piece(void *arg, size_t begin, size_t end)
 {
-	enum { SOON = 8 }; /* places are scattered over the base: memory is told of those that come */
 	const decoder *j = arg;
 	const mr_phong *s = &j->surface;
 
-	for (size_t i = begin; i < end; i++) {
-		if (i + 2 * SOON < end)
-			__builtin_prefetch(&s->m->t[j->d->at.face[i + 2 * SOON]]);
+	for (size_t i = begin; i < end; i++) { /* the places are scattered over the base */
 		if (i + SOON < end)
-			for (int k = 0; k < 3; k++) {
-				uint32_t v = s->m->t[j->d->at.face[i + SOON]].v[k];
-				__builtin_prefetch(&s->m->p[v]);
-				__builtin_prefetch(&s->normal[v]);
-			}
+			__builtin_prefetch(&s->m->t[j->d->at.face[i + SOON]]);
+		if (i + SOON / 2 < end) {
+			const uint32_t *soon = s->m->t[j->d->at.face[i + SOON / 2]].v;
+			mr_soon(s->m->p, sizeof *s->m->p, soon);
+			mr_soon(s->normal, sizeof *s->normal, soon);
+		}
 		j->p[i] = decode_vertex(j, i);
 	}
 }
