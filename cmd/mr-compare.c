@@ -1,4 +1,5 @@
 /* mr-compare -- measure how far two surfaces or clouds are apart.  See man/mr-compare.1. */
+#include "align/align.h"
 #include "cmd.h"
 #include "measure/report.h"
 #include "stream/record.h"
@@ -108,15 +109,6 @@ static const cmd_field figures[] = {
 };
 
 static mr_status
-put_map(cmd *c, mr_frame *f, const char *layer, const mr_mesh *a, const mr_mesh *b)
-{
-	double *distance = MR_NEW(&c->ctx, a->nv, double);
-
-	MR_TRY(mr_compare_vertices(&c->ctx, a, b, distance));
-	return mr_frame_put(&c->ctx, f, layer, column, (mr_shape){ 'v', 'd', 1 }, distance, a->nv);
-}
-
-static mr_status
 compare(cmd *c, mr_frame *f)
 {
 	mr_text text = { .ctx = &c->ctx };
@@ -136,11 +128,11 @@ compare(cmd *c, mr_frame *f)
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, f, a, &ma));
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, second, b, &mb));
 	if (column)
-		MR_TRY(put_map(c, f, a, &ma, &mb));
-	if (column && !c->stats)
-		return MR_OK;
+		MR_TRY(mr_compare_put(&c->ctx, f, a, column, &ma, &mb));
 	MR_TRY(mr_compare(&c->ctx, &ma, &mb, &opts, &r));
 	cmd_figures(c, figures, &r.both);
+	if (f->key)
+		MR_TRY(mr_align_judge(&c->ctx, &ma, &mb, &r));
 	if (column)
 		return MR_OK;
 	mr_report_comparison(&r, f, a, b, json, &text);

@@ -828,10 +828,10 @@ typedef struct mr_comparison {
 MR_API mr_status mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts,
     mr_comparison *comparison) MR_WARN_UNUSED;
 
-/* How far each vertex of a is from b, negative within where b is a closed, oriented manifold.  distance: a->nv, the
- * caller's. */
-MR_API mr_status mr_compare_vertices(
-    mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, double *distance) MR_WARN_UNUSED;
+/* How far each vertex of a is from b, negative within where b is a closed, oriented manifold, as that column of the
+ * layer that a is of. */
+MR_API mr_status mr_compare_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *column, const mr_mesh *a,
+    const mr_mesh *b) MR_WARN_UNUSED;
 
 /* One onto another: mr-align */
 

@@ -352,3 +352,30 @@ mr_align(mr_ctx *ctx, mr_align_side a, mr_align_side b, bool scale, mr_align_res
 	*r = found;
 	return MR_OK;
 }
+
+mr_status
+mr_align_judge(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_comparison *apart)
+{
+	MR_SCOPE(ctx);
+	const double far = 0.01; /* of the diagonal */
+	mr_compare_opts o = MR_COMPARE_DEFAULTS;
+	mr_v3 *p = MR_NEW(ctx, a->nv, mr_v3);
+	mr_mesh moved = { a->name, p, a->t, a->nv, a->nf };
+	mr_align_result r;
+	mr_comparison c;
+	mr_affine map;
+
+	if (!ctx->listener.found || apart->both.mean < far * apart->diagonal ||
+	    mr_align(ctx, (mr_align_side){ a, NULL }, (mr_align_side){ b, NULL }, false, &r) < 0 || !r.found)
+		return MR_OK;
+	o.vertices_only = true;
+	memcpy(map.m, r.map, sizeof map.m);
+	for (size_t i = 0; i < a->nv; i++)
+		p[i] = mr_apply(&map, a->p[i]);
+	MR_TRY(mr_compare(ctx, &moved, b, &o, &c));
+	if (4 * c.both.mean < apart->both.mean)
+		mr_found(ctx, &(mr_finding){ .kind = MR_UNALIGNED,
+				  .layer = a->name,
+				  .what = "a rigid motion brings it four times nearer: mr-align finds it" });
+	return MR_OK;
+}

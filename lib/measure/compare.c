@@ -17,6 +17,7 @@
 #include "base/priority_queue.h"
 #include "mesh/edges.h"
 #include "space/bvh.h"
+#include "stream/frame.h"
 
 enum { SAMPLES = 100000, EFFORT = 200000, GRAIN = 256, BATCH = 2048, SIDE_MOST = 2048 };
 
@@ -676,10 +677,11 @@ is_closed(const mr_topology *topo, size_t nf)
 }
 
 mr_status
-mr_compare_vertices(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, double *distance)
+mr_compare_put(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const char *column, const mr_mesh *a, const mr_mesh *b)
 {
 	MR_ENTER(ctx);
-	MR_SCOPE(ctx);
+	double *distance = MR_NEW(ctx, a->nv, double);
 	map_job j = { .a = a, .distance = distance };
 	mr_topology topo;
 	mr_mesh fb;
@@ -695,5 +697,5 @@ mr_compare_vertices(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, double *dis
 	mr_bvh_build(ctx, &fb, &bvh);
 	j.bvh = bvh;
 	mr_parallel(ctx, a->nv, GRAIN, map_vertices, &j);
-	return MR_OK;
+	return mr_frame_put(ctx, f, layer, column, (mr_shape){ 'v', 'd', 1 }, distance, a->nv);
 }

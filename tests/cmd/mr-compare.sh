@@ -64,3 +64,8 @@ mr-remesh -q bumpy.mrs -o remeshed.mrs
 mr-compare bumpy.mrs remeshed.mrs 2>&1 >out | grep -o 'mesh of the second.*'
 mr-compare -b base bumpy.mrs remeshed.mrs 2>&1 >out
 mr-compare remeshed.mrs bumpy.mrs 2>&1 >out
+
+echo '-- surfaces that are only elsewhere'
+mr-transform --rotate 1,2,3,20 bumpy.mrs | mr-compare bumpy.mrs 2>&1 >out | grep -o 'mesh: .*'
+mr-transform --scale 1.2 bumpy.mrs | mr-compare bumpy.mrs 2>&1 >out
+mr-make knot -n 500 | mr-compare bumpy.mrs 2>&1 >out
