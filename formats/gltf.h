@@ -41,7 +41,8 @@ typedef struct mr_gltf {
 } mr_gltf;
 
 /* Parses the file, a GLB or JSON, which must stay; path: beside which its buffers are. */
-mr_status mr_gltf_open(mr_ctx *ctx, const char *path, const unsigned char *data, size_t size, mr_gltf *g) MR_WARN_UNUSED;
+mr_status mr_gltf_open(
+    mr_ctx *ctx, const char *path, const unsigned char *data, size_t size, mr_gltf *g) MR_WARN_UNUSED;
 
 /* Leaves it to the arena to drop the JSON; NULL is nothing. */
 void mr_gltf_own(mr_ctx *ctx, json_t *json);
