@@ -55,5 +55,6 @@ try mr-fill -j1 --loops 1 cropped.mrs
 try mr-align -j1 cropped.mrs mesh.mrs
 try mr-transform -j1 --rotate 0,0,1,30 solved.mrs
 try mr-map -j1 -w made/x displaced.mrs
+try mr-map -j1 --bake points.mrs -w made/y --size 64 displaced.mrs
 try mr-render -j1 --size 64x64 -i mesh.mrs made/x.png
 try mr-view -j1 -i posed.mrs made/x.html
