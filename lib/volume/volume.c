@@ -250,8 +250,38 @@ drop_sides(mr_ctx *ctx, volume *v)
 	v->side.toward = NULL;
 }
 
-/* A body that is seen from within, as a room, has its inside where it is seen from.  Sides of a body that
- * enclose nothing, as of normals that all point upward, are none. */
+/* Of the points that the flood sees: the share of those whose side is another by it, with such normals. */
+static double
+unseen_share(const volume *v, const mr_v3 *by_flood)
+{
+	size_t seen = 0, against = 0;
+
+	for (size_t i = 0; i < v->s.n; i++) {
+		seen += v->seen[i];
+		against += v->seen[i] && mr_dot(v->s.plane.normal[i], by_flood[i]) < 0;
+	}
+	return seen > 0 ? (double)against / (double)seen : 0;
+}
+
+/* Sides that enclose nothing, as of normals that all point upward, are none where the flood has others. */
+static mr_status
+check_sides(mr_ctx *ctx, volume *v, float *w)
+{
+	MR_SCOPE(ctx);
+	mr_v3 *by_flood = MR_NEW(ctx, v->s.n, mr_v3);
+	size_t untold;
+
+	MR_TRY(orient_by_flood(ctx, v, w));
+	memcpy(by_flood, v->s.plane.normal, v->s.n * sizeof *by_flood);
+	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
+	if (v->sheet || unseen_share(v, by_flood) <= BOTH)
+		return MR_OK;
+	memcpy(v->s.plane.normal, by_flood, v->s.n * sizeof *by_flood);
+	drop_sides(ctx, v);
+	return MR_OK;
+}
+
+/* A body that is seen from within, as a room, has its inside where it is seen from. */
 static mr_status
 orient(mr_ctx *ctx, volume *v, float *w)
 {
@@ -263,14 +293,9 @@ orient(mr_ctx *ctx, volume *v, float *w)
 		return orient_by_flood(ctx, v, w);
 	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
 	share = enclosed_share(&v->s);
-	if (fabs(share) < LITTLE) {
-		MR_TRY(orient_by_flood(ctx, v, w));
-		if (!v->sheet)
-			drop_sides(ctx, v);
-		else
-			MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward, &untold));
-	}
-	v->found.turned = share <= -LITTLE;
+	if (fabs(share) < LITTLE)
+		return check_sides(ctx, v, w);
+	v->found.turned = share < 0;
 	for (size_t i = 0; v->found.turned && i < v->s.n; i++)
 		v->s.plane.normal[i] = mr_mul(-1, v->s.plane.normal[i]);
 	return MR_OK;
