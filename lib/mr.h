@@ -852,7 +852,7 @@ typedef struct mr_align_result {
 	bool found;           /* else map is the identity, and the frame stays */
 } mr_align_result;
 
-/* Moves the frame to where it fits the reference: coarse by features and principal axes, fine by points to planes.
+/* Moves the frame to where it fits the reference: coarse by features, fine by points to planes.
  * The motion is the column `transform` of no layer.  Where none fits the frame stays, and is found unaligned. */
 MR_API mr_status mr_align_frame(mr_ctx *ctx, mr_frame *f, mr_frame *reference, const mr_align_opts *opts,
     mr_align_result *result) MR_WARN_UNUSED;

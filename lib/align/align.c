@@ -286,6 +286,8 @@ find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_result *r
 	for (size_t i = 0; i < n; i++)
 		c[i] = (candidate){ guess[i], 0 };
 	MR_TRY(choose(ctx, a, b, oriented, c, n, &n));
+	if (n == 0)
+		return MR_OK;
 	for (size_t i = 0; i < n; i++) {
 		MR_TRY(draw_near(ctx, &few, &b->sparse, 3 * STEP, 1.5 * STEP, ROUNDS, scale, &c[i].map, &d));
 		MR_TRY(pair(ctx, &some, &b->sparse, true, &c[i].map));
@@ -338,7 +340,7 @@ mr_align(mr_ctx *ctx, mr_align_side a, mr_align_side b, bool scale, mr_align_res
 	double of_a = diagonal(a), of_b = diagonal(b), unit = fmax(fmin(of_a, of_b), fmax(of_a, of_b) / 4);
 	mr_align_result found = { 0 };
 	model from, to;
-	mr_affine map;
+	mr_affine map = mr_identity();
 
 	if (!(of_a > 0 && of_b > 0))
 		return mr_fail(

@@ -1,15 +1,13 @@
 /*
  * Where one side may lie on the other: points of like features in pairs, as two points with normals fix a
- * motion (Drost, Ulrich, Navab, Ilic 2010; Fischler, Bolles 1981), and the principal axes in all their orders
- * and signs.
+ * motion (Drost, Ulrich, Navab, Ilic 2010; Fischler, Bolles 1981).
  */
 #include "align/model.h"
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "space/local_planes.h"
 
-enum { KEYS = 1000, ALIKE = 3, TRIALS = 2000000, AXES = 24 };
+enum { KEYS = 1000, ALIKE = 3, TRIALS = 2000000 };
 
 /* Two pairs are alike where lengths differ by so many steps, and cosines of normals by so much. */
 static const double STEPS_OFF = 2, COSINE_OFF = 0.25;
@@ -110,46 +108,14 @@ fit_pair(const model *a, const model *b, match x, match y, mr_affine *t)
 	return true;
 }
 
-static mr_v3
-axes_of(const samples *s, mr_v3 axis[3])
-{
-	mr_v3 middle = mr_vec(0, 0, 0);
-	double sum[6], value[3];
-
-	for (size_t i = 0; i < s->n; i++)
-		middle = mr_axpy(1 / (double)s->n, s->p[i], middle);
-	mr_covariance(s->p, s->n, 1, sum);
-	mr_eigen_sym3(sum, value, axis);
-	axis[2] = mr_cross(axis[0], axis[1]);
-	return middle;
-}
-
-static void
-guess_axes(const model *a, const model *b, mr_affine guess[AXES])
-{
-	mr_v3 x[3], y[3], from = axes_of(&a->sparse, x), to = axes_of(&b->sparse, y);
-
-	for (int i = 0; i < AXES; i++) {
-		int first = i % 3, second = (first + 1 + i / 3 % 2) % 3;
-		double s = i / 6 % 2 ? -1 : 1, z = i / 12 ? -1 : 1;
-		mr_v3 u = mr_mul(s, y[first]), v = mr_mul(z, y[second]);
-		mr_mat3 r = { { 0 } };
-		mr_mat3_add_product(&r, 1, u, x[0]);
-		mr_mat3_add_product(&r, 1, v, x[1]);
-		mr_mat3_add_product(&r, 1, mr_cross(u, v), x[2]);
-		guess[i] = motion(&r, from, to);
-	}
-}
-
 mr_status
 mr_align_guess(mr_ctx *ctx, const model *a, const model *b, size_t most, mr_affine *guess, size_t *found)
 {
 	MR_SCOPE(ctx);
-	size_t keys = a->sparse.n < KEYS ? a->sparse.n : KEYS, n = keys * ALIKE, got = AXES;
+	size_t keys = a->sparse.n < KEYS ? a->sparse.n : KEYS, n = keys * ALIKE, got = 0;
 	matching w = { a, b, keys, MR_NEW(ctx, n, match) };
 	mr_random r = { 1 };
 
-	guess_axes(a, b, guess);
 	mr_parallel(ctx, keys, 16, find_matches, &w);
 	for (size_t i = 0; i < TRIALS && got < most; i++) {
 		size_t x = mr_random_bits(&r) % n, y = mr_random_bits(&r) % n;
