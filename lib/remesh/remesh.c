@@ -251,6 +251,10 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo, const uint8_t *se
 		r->length = MR_NEW(r->ctx, m->nv, double);
 		mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
 		    uniform * ADAPTIVE_RANGE, r->length);
+	} else if (r->o->lengths) {
+		r->length = MR_NEW(r->ctx, m->nv, double);
+		memcpy(r->length, r->o->lengths, m->nv * sizeof *r->length);
+		mr_sizing_grade(r->ctx, m, topo, r->length);
 	} else if (r->o->feature < 180) {
 		mr_sizing_curves(r->ctx, m, topo, &r->d, uniform, &r->length);
 	}
@@ -403,8 +407,8 @@ report(const remesher *r)
 }
 
 mr_status
-mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_kept *kept, mr_mesh *out,
-    mr_places *map, mr_remesh_result *result)
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_kept *kept, mr_mesh *out, mr_places *map,
+    mr_remesh_result *result)
 {
 	remesher r = { .ctx = ctx, .o = o };
 	mr_topology topo;

@@ -112,24 +112,26 @@ put(grader *w, uint32_t v)
 }
 
 /* Lengths grow along edges from the shortest on, each vertex's once and for all (Dijkstra 1959). */
-static void
-grade(grader *w, const mr_topology *topo)
+void
+mr_sizing_grade(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double *length)
 {
-	for (uint32_t v = 0; v < w->m->nv; v++)
+	grader w = { .ctx = ctx, .m = m, .length = length };
+
+	for (uint32_t v = 0; v < m->nv; v++)
 		if (topo->out[v] != MR_NONE)
-			put(w, v);
-	while (w->n > 0) {
+			put(&w, v);
+	while (w.n > 0) {
 		front f;
 		uint32_t h;
-		mr_queue_pop(w->queue, w->n--, sizeof f, &f, is_before);
-		if (f.length > w->length[f.v])
+		mr_queue_pop(w.queue, w.n--, sizeof f, &f, is_before);
+		if (f.length > length[f.v])
 			continue;
 		h = topo->out[f.v];
 		do {
-			uint32_t side[2] = { mr_he_to(w->m, h), mr_he_from(w->m, mr_he_prev(h)) };
+			uint32_t side[2] = { mr_he_to(m, h), mr_he_from(m, mr_he_prev(h)) };
 			for (int i = 0; i < 2; i++)
-				if (limit(w->m, w->length, f.v, side[i]))
-					put(w, side[i]);
+				if (limit(m, length, f.v, side[i]))
+					put(&w, side[i]);
 			h = mr_he_ccw(topo, h);
 		} while (h != MR_NONE && h != topo->out[f.v]);
 	}
@@ -151,19 +153,19 @@ void
 mr_sizing_curves(
     mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double uniform, double **length)
 {
-	grader w = { .ctx = ctx, .m = m, .length = MR_NEW(ctx, m->nv, double) };
+	double *own = MR_NEW(ctx, m->nv, double);
 	bool shorter = false;
 
 	for (uint32_t v = 0; v < m->nv; v++) {
 		bool sharp = d->kind[v] == MR_CURVE && !mr_dyn_on_boundary(d, v);
-		w.length[v] = !sharp ? uniform
-		                     : length_for(
-					   curvature_along(d, v), OFF * uniform, SHORTEST * uniform, uniform);
-		shorter |= w.length[v] < uniform;
+		own[v] = !sharp
+		             ? uniform
+		             : length_for(curvature_along(d, v), OFF * uniform, SHORTEST * uniform, uniform);
+		shorter |= own[v] < uniform;
 	}
 	if (shorter)
-		grade(&w, topo);
-	*length = shorter ? w.length : NULL;
+		mr_sizing_grade(ctx, m, topo, own);
+	*length = shorter ? own : NULL;
 }
 
 void
@@ -173,12 +175,11 @@ mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr
 	MR_SCOPE(ctx);
 	sums s = { MR_NEW_ZERO(ctx, m->nv, mr_v3), MR_NEW_ZERO(ctx, m->nv, double),
 		MR_NEW(ctx, m->nv, double) };
-	grader w = { .ctx = ctx, .m = m, .length = length };
 
 	mr_voronoi_areas(ctx, m, s.area);
 	for (size_t f = 0; f < m->nf; f++)
 		add_face(m, f, &s);
 	for (uint32_t v = 0; v < m->nv; v++)
 		length[v] = length_for(largest_curvature(d, &s, v), error, shortest, longest);
-	grade(&w, topo);
+	mr_sizing_grade(ctx, m, topo, length);
 }

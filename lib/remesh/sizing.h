@@ -16,6 +16,9 @@
 void mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
     double shortest, double longest, double *length);
 
+/* Lengths that grow by at most half of the way along edges. */
+void mr_sizing_grade(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double *length);
+
 /*
  * The uniform length, and where sharp edges turn within an edge shorter ones, down to an eighth, so that the
  * middle of an edge is at most an eighth of the uniform length away from the curve; elsewhere growing by at

@@ -46,14 +46,15 @@ mr_wrap_cloud_open(
 		    ctx, MR_EMESH, "%zu point%s: a closed surface needs 4 at least", n, mr_plural(n));
 	MR_TRY(mr_sampling_find(ctx, point, n, sampling, s));
 	cloud->spacing = s->usual;
-	cloud->area = s->area;
 	mr_sampling_places(ctx, point, s, &p, &index, &cloud->n);
 	if (cloud->n < 4)
 		return mr_fail(ctx, MR_EMESH, "%zu points at %zu place%s: a closed surface needs 4 at least",
 		    n, cloud->n, mr_plural(cloud->n));
 	own = MR_NEW(ctx, cloud->n, double);
-	for (size_t i = 0; i < cloud->n; i++)
+	for (size_t i = 0; i < cloud->n; i++) {
 		own[i] = s->spacing[index[i]];
+		cloud->area += own[i] * own[i]; /* in an order that is not that of the points given */
+	}
 	cloud->p = p;
 	cloud->own = own;
 	cloud->of = index;

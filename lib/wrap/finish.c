@@ -8,7 +8,10 @@
 #include "space/self_intersect.h"
 #include "wrap/parts.h"
 
-enum { ITERATIONS = 4 /* by default */, PARTINGS = 3 };
+enum { ITERATIONS = 4 /* by default */, PARTINGS = 3, AROUND = 24 };
+
+/* Densities beside the mean from and up to which edges are shorter: chance makes up to twice as many. */
+static const double DENSE = 2, DENSEST = 10;
 
 /* At most about so many edges along the diagonal: few points need no fewer faces. */
 static const double LEAST_EDGES = 10;
@@ -33,16 +36,40 @@ mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d)
 	return mr_dyn_build(ctx, m, &topo, NULL, 180, d);
 }
 
+/* Edges are shorter where points are denser; NULL where they are nowhere. */
+static mr_status
+find_lengths(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, double length, const double **lengths)
+{
+	double *own = MR_NEW(ctx, m->nv, double), mean2 = cloud->area / (double)cloud->n;
+	uint32_t *near = MR_NEW(ctx, AROUND * m->nv, uint32_t);
+	bool shorter = false;
+
+	MR_TRY(mr_near_query(ctx, cloud->near, m->p, m->nv, AROUND, near, NULL));
+	for (size_t v = 0; v < m->nv; v++) {
+		double sum = 0, share;
+		size_t i = AROUND * v, count = 0;
+		for (; count < AROUND && near[i + count] != MR_NONE; count++)
+			sum += mr_square(cloud->own[near[i + count]]);
+		share = sum / ((double)count * mean2);
+		own[v] = length * (share < 1 / DENSE ? sqrt(fmax(1 / DENSEST, share)) : 1);
+		shorter |= own[v] < length;
+	}
+	*lengths = shorter ? own : NULL;
+	return MR_OK;
+}
+
 mr_status
-mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
+mr_wrap_remesh(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *opts, const mr_mesh *m, mr_dyn *d)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	mr_places map;
 	mr_mesh out;
 
-	o.length = length;
+	o.length = mr_wrap_length(cloud, opts);
 	o.rounds = 1;
 	o.area_passes = 0;
+	if (!opts->resolution)
+		MR_TRY(find_lengths(ctx, cloud, m, o.length, &o.lengths));
 	MR_TRY(mr_remesh(ctx, m, &o, NULL, &out, &map, NULL));
 	return mr_wrap_dyn(ctx, &out, d);
 }

@@ -232,7 +232,7 @@ mr_status
 mr_wrap_settle_open(
     mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_mesh *m, mr_dyn *d)
 {
-	MR_TRY(mr_wrap_remesh(ctx, m, mr_wrap_length(cloud, o), d));
+	MR_TRY(mr_wrap_remesh(ctx, cloud, o, m, d));
 	MR_TRY(mr_wrap_settle(ctx, cloud, o, SETTLES, d));
 	mr_unfold(d);
 	return MR_OK;

@@ -42,8 +42,9 @@ mr_status mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha,
  * vertices stay. */
 mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
 
-/* Remeshes m to edges of about `length`, in one round. */
-mr_status mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d);
+/* Remeshes m to edges of mr_wrap_length, shorter where the points are denser, in one round. */
+mr_status mr_wrap_remesh(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *opts, const mr_mesh *m, mr_dyn *d);
 
 /* Draws d, already near, onto the points: vertices move along their normals to the level of the nearest
  * points and are smoothed tangentially; none that would turn a face. */

@@ -79,7 +79,7 @@ wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_w
 
 	c->found.method = MR_WRAP_VOLUME;
 	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m, &c->found.volume));
-	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
+	MR_TRY(mr_wrap_remesh(ctx, cloud, o, &m, &c->d));
 	MR_TRY(mr_wrap_finish(ctx, cloud, o, c));
 	if (o->lids != MR_LIDS_ALL)
 		MR_TRY(mr_wrap_open(ctx, cloud, o, o->lids == MR_LIDS_AUTO, &c->lids, &c->d));
