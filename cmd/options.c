@@ -70,7 +70,7 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 static mr_status
 parse_real(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text, bool *relative)
 {
-	bool percent = false, automatic = !strcmp(text, "auto") && !strncmp(o->metavar, "auto|", 5);
+	bool percent = false, automatic = !strncmp(o->metavar, "auto|", 5) && !strcmp(text, "auto");
 	double x = -1;
 	char *end;
 

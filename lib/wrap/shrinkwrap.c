@@ -100,9 +100,9 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 		return mr_wrap_fields(ctx, cloud, o, field, fields, c);
 	}
 	if (cloud->flat)
-		return mr_fail(ctx, MR_EMESH,
-		    "%zu points lie in a plane: no surface closes around them, and an open sheet needs %d",
-		    cloud->sampling.n, (int)MR_WRAP_FIELD_LEAST);
+		return mr_fail(ctx, MR_EMESH, "%zu points lie in a plane: no surface closes around them%s",
+		    cloud->sampling.n,
+		    cloud->sampling.n < MR_WRAP_FIELD_LEAST ? ", and they are too few for an open one" : "");
 	if (o->method == MR_WRAP_CUBE || (o->method == MR_WRAP_AUTO && cloud->n <= FEW))
 		return wrap_cube(ctx, cloud, o, o->method == MR_WRAP_AUTO, c);
 	return wrap_volume(ctx, cloud, o, c);
