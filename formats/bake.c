@@ -124,9 +124,10 @@ static mr_status
 find_normals(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m, mr_bake_target *t)
 {
 	const mr_v3 *vertex = m->normal;
-	mr_v3 *unit = MR_NEW(ctx, 3 * t->m.nf, mr_v3), *made = vertex ? NULL : MR_NEW(ctx, t->m.nv, mr_v3);
+	mr_v3 *unit = MR_NEW(ctx, 3 * t->m.nf, mr_v3), *made = NULL;
 
-	if (made) {
+	if (!vertex) {
+		made = MR_NEW(ctx, t->m.nv, mr_v3);
 		mr_vertex_normals(&t->m, made);
 		vertex = made;
 	}

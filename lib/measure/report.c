@@ -562,7 +562,7 @@ comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const 
 		mr_distance x = *d[i];
 		for (const figure *g = distance_figures; strcmp(g->name, "normal_mean"); g++)
 			if (g->kind == REAL)
-				*(double *)((char *)&x + g->offset) /= c->diagonal;
+				*(double *)(void *)((char *)&x + g->offset) /= c->diagonal;
 		distance_json(t, names[1][i], &x);
 	}
 	mr_text_add(t, ",\"corresponds\":%s", c->corresponds ? "true" : "false");
