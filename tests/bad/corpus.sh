@@ -83,7 +83,7 @@ tinyobj_refl.obj|8 12 and a remark
 tinyobj_skin-weight.obj|8 12 and a remark
 tinyobj_smoothing-group-two-squares.obj|6 3 and a remark
 tinyobj_smoothing-normal.obj|8 6 and a remark
-tinyobj_test-nan.obj|line 12: a coordinate is not finite
+tinyobj_test-nan.obj|line 14: a vertex is '1.#IND', not a number
 tinyobj_texture-filename-with-whitespace.obj|8 12 and a remark
 tinyobj_texture-options-issue-85.obj|3 1 and a remark
 tinyobj_tr-and-d-issue-43.obj|218 400 and a remark

@@ -27,6 +27,7 @@ arguments() {
 	mr-split) echo -q ;;
 	mr-map) echo -w out ;;
 	mr-compare) echo -a mesh ;;
+	mr-align) echo -l mesh --from mesh still.mrs ;;
 	mr-export) echo -l mesh out.ply ;;
 	mr-render) echo -l mesh,base out.png ;;
 	mr-view) echo -l mesh,base out.html ;;
@@ -53,7 +54,7 @@ try() {
 for path in "$BUILD"/bin/mr-*; do
 	tool=${path##*/}
 	set -- $(arguments "$tool")
-	[ "$tool" = mr-transform ] && cp still.mrs all.mrs || cp posed.mrs all.mrs
+	case $tool in mr-transform | mr-align) cp still.mrs all.mrs ;; *) cp posed.mrs all.mrs ;; esac
 
 	try "$tool" --help
 	[ $code -eq 0 ] && [ ! -s err ] && grep -q "^usage: $tool" out || bad "$tool --help: exit $code"
