@@ -594,9 +594,10 @@ look(mr_ctx *ctx, finder *f)
 	}
 	f->number = number;
 	f->s.p = p;
-	if (np > 0)
+	if (np > 0) {
 		MR_TRY(mr_cloud_planes(ctx, p, np, AROUND, AROUND - 1, false, &f->s.planes));
-	spread(ctx, &f->s, np);
+		spread(ctx, &f->s, np);
+	}
 	for (size_t i = 0; i < n; i++)
 		f->side[at[i]] = side_of(&f->s, near + NEAREST * i, place[i], normal[at[i]]);
 	return MR_OK;
