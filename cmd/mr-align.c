@@ -55,7 +55,7 @@ write_matrix(cmd *c, const mr_frame *f, const double m[12])
 	return mr_outfile_keep(&c->ctx, &file);
 }
 
-/* What moves in a sequence goes on moving: its frames have the motion of their key frame. */
+/* The key frame of a sequence is aligned; the frames after it are moved as it was, so the film stays a film. */
 static mr_status
 align_frame(cmd *c, mr_frame *f)
 {

@@ -44,7 +44,7 @@ tell(cmd *c, const mr_affine *map)
 	}
 }
 
-/* What moves in a sequence goes on moving: its frames have the map of their key frame, and its box. */
+/* The frames of a sequence are mapped as their key frame is, by its box, so the film stays a film. */
 static mr_status
 transform_frame(cmd *c, mr_frame *f)
 {

@@ -1,4 +1,4 @@
-/* What a surface or a cloud looks like, as pictures in another's texture. */
+/* Bakes the colours and normals of a surface or cloud into pictures for another surface. */
 #include "render/bake.h"
 
 #include "base/options.h"

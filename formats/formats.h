@@ -38,7 +38,7 @@ typedef struct mr_property {
  * `corner_texcoord`; normals likewise.
  */
 typedef struct mr_model {
-	const char *path;              /* of the file, as a reader is told it */
+	const char *path;              /* of the file that is read */
 	const mr_v3 *p;                /* nv */
 	const bool *placed;            /* nv, of a model that was read: the others are to go; NULL: all */
 	const mr_v3 *normal;           /* nv, as the file has them: not made unit */

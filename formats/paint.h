@@ -14,8 +14,8 @@
 mr_status mr_gallery_add_painted(
     mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts) MR_WARN_UNUSED;
 
-/* What a model's faces wear: a picture, or, where that is NULL, what its materials look like by the files in
- * the folder `materials`.  In the arena of keep, which may be ctx. */
+/* Finds the texture of a model: the file `picture`, or if NULL the files that its materials name in the folder
+ * `materials`.  In the arena of keep, which may be ctx. */
 mr_status mr_paint_model(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const char *picture,
     const char *materials, mr_subject *s) MR_WARN_UNUSED;
 

@@ -1,6 +1,6 @@
 /*
- * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  Semicolons part the columns where the
- * line has one, else commas, else tabs, else blanks.  Columns are told apart by names where there are any,
+ * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  The separator is the first of semicolon,
+ * comma and tab that is in the line, else blanks.  Columns are told apart by names where there are any,
  * else by their number: 3 position; 6 normal, or colour where all are whole numbers of 0 to 255 and some
  * beyond 1; 7 intensity and colour, or colour and something; 9 and more colour and normal in either order.
  * Other columns are properties.  A first line with one whole number is the number of points.
@@ -36,7 +36,7 @@ typedef struct table {
 	mr_rows points;
 } table;
 
-/* What parts the cells of a line: the first of these that it has, or blanks. */
+/* The separator of a line's cells: the first character of s that the line has, else a blank. */
 static char
 separator_of(const mr_scan *line, const char *s)
 {
