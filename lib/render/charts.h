@@ -1,9 +1,8 @@
 /*
  * charts.h -- texture coordinates for any surface: charts, and where they lie in a square.
  *
- * Contract: the faces of a chart look within 60 degrees of one direction, from where it is seen in parallel
- * projection: nothing is longer than in the others' mean, or shorter, by more than twice.  The mesh may be
- * non-manifold and of any orientation.
+ * Contract: the faces of a chart look within 60 degrees of the direction from where it is seen, in parallel
+ * projection, which so stretches nothing by more than twice.  Any mesh.
  */
 #ifndef MR_RENDER_CHARTS_H
 #define MR_RENDER_CHARTS_H
