@@ -89,23 +89,13 @@ faces_alike(const encoder *e, size_t i, const mr_foot *foot)
 }
 
 /* A foot may be a little higher than the place where the vertex stands. */
-static double
-limit_of(const encoder *e, size_t i, mr_place start)
-{
-	return 1.1 * mr_dist(e->mesh->p[i], mr_phong_point(&e->ground.surface, start)) + e->ground.tolerance;
-}
-
 static bool
 walk_to_foot(const encoder *e, size_t i, mr_place start)
 {
-	return mr_foot_walk(&e->ground, e->mesh->p[i], start, limit_of(e, i, start), &e->foot[i]);
-}
+	double limit = 1.1 * mr_dist(e->mesh->p[i], mr_phong_point(&e->ground.surface, start)) +
+	               e->ground.tolerance;
 
-static bool
-search_foot(const encoder *e, size_t i, mr_place start)
-{
-	return mr_foot_search(&e->ground, e->mesh->p[i], start.face, &e->foot[i]) &&
-	       fabs(e->foot[i].height) <= 2 * limit_of(e, i, start);
+	return mr_foot_walk(&e->ground, e->mesh->p[i], start, limit, &e->foot[i]);
 }
 
 static void
@@ -148,7 +138,7 @@ find_easy_feet(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* From the place where a vertex stands, and where that leads nowhere by a search of the sheet. */
+/* From the place where a vertex stands. */
 static void
 find_feet(void *arg, size_t begin, size_t end)
 {
@@ -156,7 +146,6 @@ find_feet(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		mr_place start;
-		bool found;
 		if (e->sound[i])
 			continue;
 		if (e->face[i] == MR_NONE) {
@@ -165,8 +154,7 @@ find_feet(void *arg, size_t begin, size_t end)
 			e->bary[i] = at.bary;
 		}
 		start = (mr_place){ e->face[i], e->bary[i] };
-		found = walk_to_foot(e, i, start) || search_foot(e, i, start);
-		settle(e, i, found && is_sound(e, &e->foot[i]));
+		settle(e, i, walk_to_foot(e, i, start) && is_sound(e, &e->foot[i]));
 	}
 }
 

@@ -1,7 +1,6 @@
-/* Feet on a Phong surface: of points made from them, by closed forms, and the lowest by brute force. */
+/* Feet on a Phong surface: of points made from them, and by closed forms. */
 #include "edit/phong_projection.h"
 #include "shapes.h"
-#include "space/bvh.h"
 
 typedef struct scene {
 	mr_mesh m;
@@ -97,7 +96,7 @@ a_point_over_the_surface_finds_its_foot(void **state)
 	}
 }
 
-/* Over the flat square the foot is below the point; beside it there is none, and the search gives the rim. */
+/* Over the flat square the foot is below the point; beside it there is none. */
 static void
 over_a_square_the_foot_is_below(void **state)
 {
@@ -109,22 +108,15 @@ over_a_square_the_foot_is_below(void **state)
 	for (int k = 0; k < 2000; k++) {
 		mr_v3 p = mr_mul(3, random_vector(&r));
 		bool over = fabs(p.x) < 1 && fabs(p.y) < 1;
-		mr_foot foot = { { 77, { 0, 0, 0 } }, 0 }, found;
-		mr_v3 at;
+		mr_foot foot = { { 77, { 0, 0, 0 } }, 0 };
 		bool walked = mr_foot_walk(
 		    &x.g, p, (mr_place){ random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3) }, 2, &foot);
 		assert_int_equal(walked, over);
-		assert_int_equal(mr_foot_search(&x.g, p, random_face(&x, &r), &found), over);
-		at = mr_phong_point(&x.g.surface, found.at);
 		if (over) {
 			assert_is_foot(&x, &foot, p);
-			assert_is_foot(&x, &found, p);
-			assert_true(fabs(foot.height - p.z) < 1e-13 && fabs(found.height - p.z) < 1e-13);
+			assert_true(fabs(foot.height - p.z) < 1e-13);
 		} else {
 			assert_int_equal(foot.at.face, 77);
-			assert_true(found.height == 0);
-			assert_true(
-			    mr_dist(at, mr_vec(fmin(fmax(p.x, -1), 1), fmin(fmax(p.y, -1), 1), 0)) < 1e-13);
 		}
 	}
 }
@@ -179,116 +171,6 @@ no_foot_is_beyond_the_axis(void **state)
 	assert_true(found > 300 && found < 1000);
 }
 
-/*
- * The lowest foot of p on a face, by another way: what p - b(u, v) has across n(u, v), in two directions,
- * made zero by Newton's method with differences, from a lattice of places.
- */
-static double
-lowest_on_face(const scene *x, uint32_t face, mr_v3 p)
-{
-	enum { LATTICE = 3, STEPS = 20 };
-	const double d = 1e-6;
-	double lowest = INFINITY;
-
-	for (int i = 0; i <= LATTICE; i++)
-		for (int j = 0; i + j <= LATTICE; j++) {
-			double u = (double)i / LATTICE, v = (double)j / LATTICE, g[3][2] = { { 1, 1 } };
-			for (int step = 0; step < STEPS; step++) {
-				mr_tangent_frame f = mr_phong_frame(
-				    &x->g.surface, (mr_place){ face, mr_vec(1 - u - v, u, v) });
-				double a, b, c, e, det;
-				for (int k = 0; k < 3; k++) {
-					double du = k == 1 ? d : 0, dv = k == 2 ? d : 0;
-					mr_v3 w = mr_vec(1 - u - v - du - dv, u + du, v + dv);
-					mr_v3 n = mr_phong_normal(&x->g.surface, (mr_place){ face, w });
-					mr_v3 q = mr_sub(
-					    p, mr_phong_point(&x->g.surface, (mr_place){ face, w }));
-					q = mr_axpy(-mr_dot(q, n), n, q);
-					g[k][0] = mr_dot(q, f.t1);
-					g[k][1] = mr_dot(q, f.t2);
-				}
-				a = (g[1][0] - g[0][0]) / d, b = (g[2][0] - g[0][0]) / d;
-				c = (g[1][1] - g[0][1]) / d, e = (g[2][1] - g[0][1]) / d;
-				det = a * e - b * c;
-				if (fabs(det) < 1e-12 || fabs(u) + fabs(v) > 10)
-					break;
-				u -= (e * g[0][0] - b * g[0][1]) / det;
-				v -= (a * g[0][1] - c * g[0][0]) / det;
-			}
-			if (hypot(g[0][0], g[0][1]) < 1e-9 && u > -1e-7 && v > -1e-7 && u + v < 1 + 1e-7) {
-				mr_v3 w = mr_vec(1 - u - v, u, v);
-				double h = mr_dot(mr_phong_normal(&x->g.surface, (mr_place){ face, w }),
-				    mr_sub(p, mr_phong_point(&x->g.surface, (mr_place){ face, w })));
-				lowest = fmin(lowest, fabs(h));
-			}
-		}
-	return lowest;
-}
-
-/* From the nearest face of a coarse surface: the lowest foot of all faces, if it is no higher than twice the
- * distance. */
-static void
-the_search_finds_the_lowest(void **state)
-{
-	static const mr_solid solids[] = { MR_TORUS, MR_CUBE, MR_CYLINDER, MR_PLANE };
-	mr_random r = { 5 };
-	size_t found = 0, none = 0;
-
-	(void)state;
-	for (size_t i = 0; i < 4; i++) {
-		mr_bvh *bvh;
-		scene x;
-		set_up(&x, shape(solids[i], 120));
-		mr_bvh_build(&ctx, &x.m, &bvh);
-		for (int k = 0; k < 40; k++) {
-			mr_v3 p = mr_mul(k % 3 == 0 ? 4 : 2.5, random_vector(&r));
-			mr_closest nearest = mr_bvh_closest(bvh, p);
-			double dist = sqrt(nearest.dist2), lowest = INFINITY;
-			mr_foot foot;
-			bool is;
-			for (uint32_t f = 0; f < x.m.nf; f++)
-				lowest = fmin(lowest, lowest_on_face(&x, f, p));
-			is = mr_foot_search(&x.g, p, nearest.at.face, &foot);
-			if (fabs(lowest / dist - 2) < 1e-3)
-				continue;
-			if (lowest > 2 * dist) {
-				assert_false(is);
-				assert_true(foot.height == 0);
-				assert_true(
-				    fabs(mr_dist(mr_phong_point(&x.g.surface, foot.at), p) - dist) < 1e-12);
-				none++;
-			} else {
-				assert_true(is);
-				assert_is_foot(&x, &foot, p);
-				assert_true(fabs(fabs(foot.height) - lowest) < 1e-7);
-				found++;
-			}
-		}
-	}
-	assert_true(found > 100 && none > 5);
-}
-
-/* Of two squares, one over the other, the foot is on that of the face. */
-static void
-a_search_stays_on_its_sheet(void **state)
-{
-	mr_mesh one = shape(MR_PLANE, 100), m = both(&one, &one, mr_vec(0, 0, 0.5));
-	mr_random r = { 6 };
-	scene x;
-
-	(void)state;
-	set_up(&x, m);
-	for (int k = 0; k < 200; k++) {
-		uint32_t face = random_face(&x, &r);
-		double z = face < one.nf ? 0 : 0.5;
-		mr_v3 p = mr_add(random_vector(&r), mr_vec(0.2, 0.2, 0.4));
-		mr_foot foot;
-		assert_true(mr_foot_search(&x.g, p, face, &foot));
-		assert_true((foot.at.face < one.nf) == (face < one.nf));
-		assert_true(fabs(foot.height - (p.z - z)) < 1e-13);
-	}
-}
-
 int
 main(void)
 {
@@ -297,8 +179,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(over_a_square_the_foot_is_below, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_foot_is_not_higher_than_its_limit, setup, teardown),
 		cmocka_unit_test_setup_teardown(no_foot_is_beyond_the_axis, setup, teardown),
-		cmocka_unit_test_setup_teardown(the_search_finds_the_lowest, setup, teardown),
-		cmocka_unit_test_setup_teardown(a_search_stays_on_its_sheet, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
