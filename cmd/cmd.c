@@ -817,10 +817,8 @@ account(cmd *c)
 	return EXIT_DATA;
 }
 
-/*
- * Where stdin, stdout or stderr is closed the next file that is opened would take its number, and messages
- * would be written into it: something stands there that can neither be read nor written as it would be.
- */
+/* Where stdin, stdout or stderr is closed the next file that is opened would take its number, and messages
+ * would be written into it: something stands there that can neither be read nor written as it would be. */
 static void
 fill_closed(void)
 {

@@ -1,21 +1,5 @@
-/*
- * cmd.h -- what every command shares: options, frames in and out, sentences, exits.
- *
- * A command is a table of options and a function from frame to frame:
- *
- *	static mr_status
- *	smooth_frame(cmd *c, mr_frame *f)
- *	{
- *		opts.layer = c->layer;
- *		return mr_smooth_frame(&c->ctx, f, &opts, c->result);
- *	}
- *
- *	const cmd_tool cmd_this = {
- *		.summary = "...", .options = table, .frame = smooth_frame
- *	};
- *
- * Only cmd.c prints and exits: 0 good, 1 data or I/O, 2 usage.
- */
+/* cmd.h -- what every command shares: options, frames in and out, sentences, exits.  A command is a table of
+ * options and a function from frame to frame; only cmd.c prints and exits: 0 good, 1 data or I/O, 2 usage. */
 #ifndef CMD_H
 #define CMD_H
 
@@ -34,15 +18,16 @@ typedef struct cmd_field {
 
 enum { CMD_RESULT = 512 }; /* bytes, for any tool's */
 
-#define CMD_FIELD(type, field) (offsetof(type, field) + 0 * sizeof(char[sizeof(type) <= CMD_RESULT ? 1 : -1]))
-#define CMD_COUNTED(type, field)                                                                             \
+/* A field of a result that is a count or a double, under its own name or another. */
+#define CMD_FIGURE_AS(word, type, field)                                                                     \
 	{                                                                                                    \
-#field, true, CMD_FIELD(type, field)                                                         \
+		word,                                                                                        \
+		    _Generic(((type *)0)->field, size_t                                                      \
+			     : true, double                                                                  \
+			     : false),                                                                       \
+		    offsetof(type, field) + 0 * sizeof(char[sizeof(type) <= CMD_RESULT ? 1 : -1])            \
 	}
-#define CMD_MEASURED(type, field)                                                                            \
-	{                                                                                                    \
-#field, false, CMD_FIELD(type, field)                                                        \
-	}
+#define CMD_FIGURE(type, field) CMD_FIGURE_AS(#field, type, field)
 
 typedef struct cmd_tool {
 	const char *summary;
@@ -125,10 +110,8 @@ mr_status cmd_side(cmd *c, const char *path, mr_side *side) MR_WARN_UNUSED;
 /* Sends a frame now: a source, or a filter that says it `sends`. */
 mr_status cmd_send(cmd *c, const mr_frame *f);
 
-/*
- * A source that makes a frame of each operand ("-" where there are none): calls `one` for each, in
- * an arena of its own; with -k one that fails is reported and left out.
- */
+/* A source that makes a frame of each operand ("-" where there are none): calls `one` for each, in an arena
+ * of its own; with -k one that fails is reported and left out. */
 mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand));
 
 /* A figure of the frame at work, for --stats. */
@@ -140,9 +123,7 @@ void cmd_figures(cmd *c, const cmd_field *table, const void *result);
 /* Those of a surface and points. */
 void cmd_gaps(cmd *c, const mr_gaps *gaps);
 
-/*
- * Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end.
- */
+/* Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end. */
 void cmd_print(cmd *c, const char *format, ...) MR_PRINTF(2, 3);
 
 #endif

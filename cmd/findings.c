@@ -3,11 +3,9 @@
 
 #include <math.h>
 
-/*
- * In a sentence {n} is the count, {of} " of 12" where that is known, {s} the plural of what is counted,
+/* In a sentence {n} is the count, {of} " of 12" where that is known, {s} the plural of what is counted,
  * {layer}, {what}, {pct} the value in percent, {limit}; {left}: what a repair leaves, of {value} and {limit};
- * {at} " at vertex 5 (x, y, z)".
- */
+ * {at} " at vertex 5 (x, y, z)". */
 typedef struct entry {
 	verdict worst; /* what a frame with it is at most */
 	double

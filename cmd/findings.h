@@ -1,9 +1,6 @@
-/*
- * findings.h -- what a command says of findings: one table of sentences and remedies, in findings.c.
- *
- * A finding is said once: not where an earlier tool of the pipe has said it, and in a sequence again only
- * when its count has doubled.  What was found goes along with the frame, in its column `findings`.
- */
+/* findings.h -- what a command says of findings: one table of sentences and remedies, in findings.c. A
+ * finding is said once: not where an earlier tool of the pipe has said it, and in a sequence again only when
+ * its count has doubled.  What was found goes along with the frame, in its column `findings`. */
 #ifndef CMD_FINDINGS_H
 #define CMD_FINDINGS_H
 

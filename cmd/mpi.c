@@ -1,7 +1,5 @@
-/*
- * mpi.c -- mr-solve in several processes of MPI: rank 0 is mr-solve, the others hold parts of its factors.
- * Linked with cmd.c, whose main is mr_solve_main here, and with lib/solve/mumps.c.
- */
+/* mpi.c -- mr-solve in several processes of MPI: rank 0 is mr-solve, the others hold parts of its factors.
+ * Linked with cmd.c, whose main is mr_solve_main here, and with lib/solve/mumps.c. */
 #include "cmd.h"
 #include "solve/mumps.h"
 

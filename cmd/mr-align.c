@@ -30,14 +30,9 @@ open_reference(cmd *c)
 	return cmd_side(c, c->operands[c->operand_count - 1], &reference);
 }
 
-static const cmd_field figures[] = {
-	CMD_MEASURED(mr_align_result, scale),
-	CMD_MEASURED(mr_align_result, overlap),
-	CMD_MEASURED(mr_align_result, residual),
-	CMD_MEASURED(mr_align_result, score),
-	CMD_MEASURED(mr_align_result, second),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_align_result, field)
+static const cmd_field figures[] = { FIGURE(scale), FIGURE(overlap), FIGURE(residual), FIGURE(score),
+	FIGURE(second), { 0 } };
 
 static mr_status
 write_matrix(cmd *c, const mr_frame *f, const double m[12])
@@ -55,7 +50,8 @@ write_matrix(cmd *c, const mr_frame *f, const double m[12])
 	return mr_outfile_keep(&c->ctx, &file);
 }
 
-/* The key frame of a sequence is aligned; the frames after it are moved as it was, so the film stays a film. */
+/* The key frame of a sequence is aligned; the frames after it are moved as it was, so the film stays a film.
+ */
 static mr_status
 align_frame(cmd *c, mr_frame *f)
 {

@@ -91,22 +91,14 @@ choose_results(cmd *c, mr_frame *f, mr_frame *second, const char *first, const c
 	return MR_OK;
 }
 
-static const cmd_field figures[] = {
-	CMD_MEASURED(mr_distance, max),
-	CMD_MEASURED(mr_distance, max_bound),
-	CMD_MEASURED(mr_distance, mean),
-	CMD_MEASURED(mr_distance, rms),
-	{ "q50", false, CMD_FIELD(mr_distance, quantile[0]) },
-	{ "q90", false, CMD_FIELD(mr_distance, quantile[1]) },
-	{ "q95", false, CMD_FIELD(mr_distance, quantile[2]) },
-	{ "q99", false, CMD_FIELD(mr_distance, quantile[3]) },
-	CMD_MEASURED(mr_distance, normal_mean),
-	{ "normal_q50", false, CMD_FIELD(mr_distance, normal_quantile[0]) },
-	{ "normal_q90", false, CMD_FIELD(mr_distance, normal_quantile[1]) },
-	{ "normal_q95", false, CMD_FIELD(mr_distance, normal_quantile[2]) },
-	{ "normal_q99", false, CMD_FIELD(mr_distance, normal_quantile[3]) },
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_distance, field)
+static const cmd_field figures[] = { FIGURE(max), FIGURE(max_bound), FIGURE(mean), FIGURE(rms),
+	CMD_FIGURE_AS("q50", mr_distance, quantile[0]), CMD_FIGURE_AS("q90", mr_distance, quantile[1]),
+	CMD_FIGURE_AS("q95", mr_distance, quantile[2]), CMD_FIGURE_AS("q99", mr_distance, quantile[3]),
+	FIGURE(normal_mean), CMD_FIGURE_AS("normal_q50", mr_distance, normal_quantile[0]),
+	CMD_FIGURE_AS("normal_q90", mr_distance, normal_quantile[1]),
+	CMD_FIGURE_AS("normal_q95", mr_distance, normal_quantile[2]),
+	CMD_FIGURE_AS("normal_q99", mr_distance, normal_quantile[3]), { 0 } };
 
 static mr_status
 compare(cmd *c, mr_frame *f)

@@ -27,13 +27,9 @@ prepare(cmd *c)
 	return selection.n ? MR_OK : mr_fail(&c->ctx, MR_EUSAGE, "nothing to do: give --keep or --drop");
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_crop_result, vertices),
-	CMD_COUNTED(mr_crop_result, faces),
-	CMD_COUNTED(mr_crop_result, vertices_dropped),
-	CMD_COUNTED(mr_crop_result, faces_dropped),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_crop_result, field)
+static const cmd_field figures[] = { FIGURE(vertices), FIGURE(faces), FIGURE(vertices_dropped),
+	FIGURE(faces_dropped), { 0 } };
 
 static mr_status
 crop_frame(cmd *c, mr_frame *f)

@@ -1,13 +1,9 @@
 /* mr-encode -- store a mesh as detail over its base surface.  See man/mr-encode.1. */
 #include "cmd.h"
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_encode_result, heights),
-	CMD_COUNTED(mr_encode_result, offsets),
-	CMD_MEASURED(mr_encode_result, residual_max),
-	CMD_MEASURED(mr_encode_result, height_max),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_encode_result, field)
+static const cmd_field figures[] = { FIGURE(heights), FIGURE(offsets), FIGURE(residual_max),
+	FIGURE(height_max), { 0 } };
 
 static mr_status
 encode_frame(cmd *c, mr_frame *f)

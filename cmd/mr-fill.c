@@ -12,14 +12,9 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_fill_result, loops),
-	CMD_COUNTED(mr_fill_result, filled),
-	CMD_COUNTED(mr_fill_result, crossing),
-	CMD_COUNTED(mr_fill_result, vertices),
-	CMD_COUNTED(mr_fill_result, faces),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_fill_result, field)
+static const cmd_field figures[] = { FIGURE(loops), FIGURE(filled), FIGURE(crossing), FIGURE(vertices),
+	FIGURE(faces), { 0 } };
 
 static mr_status
 fill_frame(cmd *c, mr_frame *f)

@@ -20,20 +20,11 @@ prepare(cmd *c)
 	return cmd_idle(c, "fairness", opts.method == MR_FIT_LOCAL, "with -m local");
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_fit_result, iterations),
-	CMD_COUNTED(mr_fit_result, outliers),
-	CMD_MEASURED(mr_fit_result, distance_mean_before),
-	CMD_MEASURED(mr_fit_result, distance_rms_before),
-	CMD_MEASURED(mr_fit_result, distance_max_before),
-	CMD_MEASURED(mr_fit_result, distance_mean_after),
-	CMD_MEASURED(mr_fit_result, distance_rms_after),
-	CMD_MEASURED(mr_fit_result, distance_max_after),
-	CMD_COUNTED(mr_fit_result, folded_edges_before),
-	CMD_COUNTED(mr_fit_result, folded_edges_after),
-	CMD_COUNTED(mr_fit_result, crossing_faces),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_fit_result, field)
+static const cmd_field figures[] = { FIGURE(iterations), FIGURE(outliers), FIGURE(distance_mean_before),
+	FIGURE(distance_rms_before), FIGURE(distance_max_before), FIGURE(distance_mean_after),
+	FIGURE(distance_rms_after), FIGURE(distance_max_after), FIGURE(folded_edges_before),
+	FIGURE(folded_edges_after), FIGURE(crossing_faces), { 0 } };
 
 static mr_status
 fit_frame(cmd *c, mr_frame *f)

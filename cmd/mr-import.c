@@ -32,14 +32,9 @@ check(cmd *c)
 	return mr_format_check(&c->ctx, "", opts.format, false, &binary);
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_import_result, vertices),
-	CMD_COUNTED(mr_import_result, triangles),
-	CMD_COUNTED(mr_import_result, polygons),
-	CMD_COUNTED(mr_import_result, seam_vertices),
-	CMD_COUNTED(mr_import_result, crease_vertices),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_import_result, field)
+static const cmd_field figures[] = { FIGURE(vertices), FIGURE(triangles), FIGURE(polygons),
+	FIGURE(seam_vertices), FIGURE(crease_vertices), { 0 } };
 
 static mr_status
 import(cmd *c, const char *path)

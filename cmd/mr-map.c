@@ -73,20 +73,10 @@ check(cmd *c)
 	return mr_outname(&c->ctx, to ? to : from, "", 1, &name);
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_map_result, level),
-	CMD_COUNTED(mr_map_result, width),
-	CMD_COUNTED(mr_map_result, height),
-	CMD_MEASURED(mr_map_result, low),
-	CMD_MEASURED(mr_map_result, high),
-	CMD_COUNTED(mr_map_result, clipped),
-	CMD_COUNTED(mr_map_result, turned),
-	CMD_COUNTED(mr_map_result, between),
-	CMD_COUNTED(mr_map_result, seams),
-	CMD_COUNTED(mr_map_result, texels),
-	CMD_COUNTED(mr_map_result, charts),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_map_result, field)
+static const cmd_field figures[] = { FIGURE(level), FIGURE(width), FIGURE(height), FIGURE(low), FIGURE(high),
+	FIGURE(clipped), FIGURE(turned), FIGURE(between), FIGURE(seams), FIGURE(texels), FIGURE(charts),
+	{ 0 } };
 
 static mr_status
 map_frame(cmd *c, mr_frame *f)

@@ -25,13 +25,9 @@ prepare(cmd *c)
 	return MR_OK;
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_normals_result, kept),
-	CMD_COUNTED(mr_normals_result, estimated),
-	CMD_COUNTED(mr_normals_result, outliers),
-	CMD_MEASURED(mr_normals_result, agree),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_normals_result, field)
+static const cmd_field figures[] = { FIGURE(kept), FIGURE(estimated), FIGURE(outliers), FIGURE(agree),
+	{ 0 } };
 
 static mr_status
 normals_frame(cmd *c, mr_frame *f)

@@ -71,10 +71,8 @@ look_at_length(cmd *c, mr_frame *f, size_t length)
 	return MR_OK;
 }
 
-/*
- * The column handles.frames says how many deltas of a sequence follow its key: so one
- * mr-pose makes the sequence, and those behind it pose the frames that come.
- */
+/* The column handles.frames says how many deltas of a sequence follow its key: so one mr-pose makes the
+ * sequence, and those behind it pose the frames that come. */
 static mr_status
 pose_frame(cmd *c, mr_frame *f)
 {

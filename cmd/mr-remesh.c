@@ -38,19 +38,10 @@ prepare(cmd *c)
 	return cmd_idle(c, "gravity", opts.area_passes == 0, "without area passes");
 }
 
-static const cmd_field figures[] = {
-	CMD_MEASURED(mr_remesh_result, length),
-	CMD_COUNTED(mr_remesh_result, splits),
-	CMD_COUNTED(mr_remesh_result, collapses),
-	CMD_COUNTED(mr_remesh_result, flips),
-	CMD_COUNTED(mr_remesh_result, vertices),
-	CMD_COUNTED(mr_remesh_result, faces),
-	CMD_MEASURED(mr_remesh_result, area_variance_before),
-	CMD_MEASURED(mr_remesh_result, area_variance_after),
-	CMD_COUNTED(mr_remesh_result, flipped),
-	CMD_COUNTED(mr_remesh_result, folded),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_remesh_result, field)
+static const cmd_field figures[] = { FIGURE(length), FIGURE(splits), FIGURE(collapses), FIGURE(flips),
+	FIGURE(vertices), FIGURE(faces), FIGURE(area_variance_before), FIGURE(area_variance_after),
+	FIGURE(flipped), FIGURE(folded), { 0 } };
 
 static mr_status
 remesh_frame(cmd *c, mr_frame *f)

@@ -17,23 +17,10 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_sample_result, level),
-	CMD_COUNTED(mr_sample_result, vertices),
-	CMD_COUNTED(mr_sample_result, outliers),
-	CMD_MEASURED(mr_sample_result, tries_1),
-	CMD_MEASURED(mr_sample_result, tries_4),
-	CMD_MEASURED(mr_sample_result, tries_10),
-	CMD_COUNTED(mr_sample_result, missed),
-	CMD_COUNTED(mr_sample_result, spikes),
-	CMD_COUNTED(mr_sample_result, filled),
-	CMD_MEASURED(mr_sample_result, fairness),
-	CMD_MEASURED(mr_sample_result, gap_mean),
-	CMD_MEASURED(mr_sample_result, gap_max),
-	CMD_MEASURED(mr_sample_result, area_ratio),
-	CMD_COUNTED(mr_sample_result, folds),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_sample_result, field)
+static const cmd_field figures[] = { FIGURE(level), FIGURE(vertices), FIGURE(outliers), FIGURE(tries_1),
+	FIGURE(tries_4), FIGURE(tries_10), FIGURE(missed), FIGURE(spikes), FIGURE(filled), FIGURE(fairness),
+	FIGURE(gap_mean), FIGURE(gap_max), FIGURE(area_ratio), FIGURE(folds), { 0 } };
 
 static mr_status
 sample_frame(cmd *c, mr_frame *f)

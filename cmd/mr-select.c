@@ -57,12 +57,8 @@ prepare(cmd *c)
 	    &c->ctx, MR_EUSAGE, "nothing to select: give --free, --fixed, --handle, --from or --reset");
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_select_result, fixed),
-	CMD_COUNTED(mr_select_result, free),
-	CMD_COUNTED(mr_select_result, handles),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_select_result, field)
+static const cmd_field figures[] = { FIGURE(fixed), FIGURE(free), FIGURE(handles), { 0 } };
 
 /* The vertices of each of the first handles, too. */
 static void

@@ -36,31 +36,15 @@ prepare(cmd *c)
 	return MR_OK;
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_wrap_result, method),
-	CMD_COUNTED(mr_wrap_result, places),
-	CMD_COUNTED(mr_wrap_result, outliers),
-	CMD_MEASURED(mr_wrap_result, sampling),
-	CMD_COUNTED(mr_wrap_result, resolution),
-	CMD_COUNTED(mr_wrap_result, iterations),
-	CMD_COUNTED(mr_wrap_result, faces),
-	CMD_COUNTED(mr_wrap_result, folded_edges),
-	CMD_COUNTED(mr_wrap_result, intersecting_pairs),
-	CMD_COUNTED(mr_wrap_result, unreached),
-	CMD_COUNTED(mr_wrap_result, openings),
-	CMD_COUNTED(mr_wrap_result, holes),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_wrap_result, field)
+static const cmd_field figures[] = { FIGURE(method), FIGURE(places), FIGURE(outliers), FIGURE(sampling),
+	FIGURE(resolution), FIGURE(iterations), FIGURE(faces), FIGURE(folded_edges),
+	FIGURE(intersecting_pairs), FIGURE(unreached), FIGURE(openings), FIGURE(holes), { 0 } };
 
-static const cmd_field volume_figures[] = {
-	CMD_COUNTED(mr_volume_result, samples),
-	CMD_COUNTED(mr_volume_result, sided),
-	CMD_MEASURED(mr_volume_result, spacing),
-	CMD_MEASURED(mr_volume_result, cell),
-	CMD_MEASURED(mr_volume_result, noise),
-	CMD_MEASURED(mr_volume_result, euler),
-	{ 0 },
-};
+#undef FIGURE
+#define FIGURE(field) CMD_FIGURE(mr_volume_result, field)
+static const cmd_field volume_figures[] = { FIGURE(samples), FIGURE(sided), FIGURE(spacing), FIGURE(cell),
+	FIGURE(noise), FIGURE(euler), { 0 } };
 
 static mr_status
 shrinkwrap_frame(cmd *c, mr_frame *f)

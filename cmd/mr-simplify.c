@@ -22,14 +22,9 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_simplify_result, merges),
-	CMD_MEASURED(mr_simplify_result, error),
-	CMD_COUNTED(mr_simplify_result, vertices),
-	CMD_COUNTED(mr_simplify_result, faces),
-	CMD_COUNTED(mr_simplify_result, creases),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_simplify_result, field)
+static const cmd_field figures[] = { FIGURE(merges), FIGURE(error), FIGURE(vertices), FIGURE(faces),
+	FIGURE(creases), { 0 } };
 
 static mr_status
 read_lock(mr_ctx *ctx)

@@ -13,14 +13,9 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_smooth_result, passes),
-	CMD_COUNTED(mr_smooth_result, bounded),
-	CMD_COUNTED(mr_smooth_result, iterations),
-	CMD_MEASURED(mr_smooth_result, area),
-	CMD_MEASURED(mr_smooth_result, volume),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_smooth_result, field)
+static const cmd_field figures[] = { FIGURE(passes), FIGURE(bounded), FIGURE(iterations), FIGURE(area),
+	FIGURE(volume), { 0 } };
 
 static mr_status
 smooth_frame(cmd *c, mr_frame *f)

@@ -30,22 +30,11 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_solve_result, free),
-	CMD_COUNTED(mr_solve_result, fixed),
-	CMD_COUNTED(mr_solve_result, handles),
-	CMD_COUNTED(mr_solve_result, isolated_components),
-	CMD_MEASURED(mr_solve_result, negative_weights),
-	CMD_MEASURED(mr_solve_result, seconds_assemble),
-	CMD_MEASURED(mr_solve_result, seconds_solve),
-	CMD_MEASURED(mr_solve_result, residual),
-	CMD_MEASURED(mr_solve_result, nnz_factor),
-	CMD_MEASURED(mr_solve_result, seconds_analyse),
-	CMD_MEASURED(mr_solve_result, seconds_factor),
-	CMD_COUNTED(mr_solve_result, iterations),
-	CMD_MEASURED(mr_solve_result, rcond),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_solve_result, field)
+static const cmd_field figures[] = { FIGURE(free), FIGURE(fixed), FIGURE(handles),
+	FIGURE(isolated_components), FIGURE(negative_weights), FIGURE(seconds_assemble),
+	FIGURE(seconds_solve), FIGURE(residual), FIGURE(nnz_factor), FIGURE(seconds_analyse),
+	FIGURE(seconds_factor), FIGURE(iterations), FIGURE(rcond), { 0 } };
 
 static mr_status
 prepare(cmd *c)

@@ -14,14 +14,9 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_split_result, parts),
-	CMD_COUNTED(mr_split_result, largest),
-	CMD_COUNTED(mr_split_result, smallest),
-	CMD_COUNTED(mr_split_result, dropped),
-	CMD_COUNTED(mr_split_result, dropped_vertices),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_split_result, field)
+static const cmd_field figures[] = { FIGURE(parts), FIGURE(largest), FIGURE(smallest), FIGURE(dropped),
+	FIGURE(dropped_vertices), { 0 } };
 
 static mr_status
 split_frame(cmd *c, mr_frame *f)

@@ -14,12 +14,9 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-static const cmd_field figures[] = {
-	{ "seconds_subdivide", false, offsetof(mr_subdivide_result, seconds) },
-	CMD_COUNTED(mr_subdivide_result, vertices),
-	CMD_COUNTED(mr_subdivide_result, faces),
-	{ 0 },
-};
+#define FIGURE(field) CMD_FIGURE(mr_subdivide_result, field)
+static const cmd_field figures[] = { CMD_FIGURE_AS("seconds_subdivide", mr_subdivide_result, seconds),
+	FIGURE(vertices), FIGURE(faces), { 0 } };
 
 static mr_status
 check(cmd *c)

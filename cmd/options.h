@@ -1,8 +1,5 @@
-/*
- * options.h -- one table of options yields the parser, the range checks and --help.
- *
- * Layer rule: cmd; includes base only.
- */
+/* options.h -- one table of options yields the parser, the range checks and --help. Layer rule: cmd; includes
+ * base only. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
@@ -51,10 +48,8 @@ typedef struct cmd_args {
 	uint64_t given; /* bit i: option i of the first table, of 64 at most */
 } cmd_args;
 
-/*
- * Parses argv[1..] by the two tables, of which the first wins.  Options and operands
- * may be mixed; `--` ends the options.  MR_EUSAGE with a sentence.  args: in the arena.
- */
+/* Parses argv[1..] by the two tables, of which the first wins.  Options and operands may be mixed; `--` ends
+ * the options.  MR_EUSAGE with a sentence.  args: in the arena. */
 mr_status cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tables[2], cmd_args *args);
 
 /* Prints one table for --help, its defaults read from the values. */

@@ -1,8 +1,4 @@
-/*
- * place.h -- whether names lead to one file, and what is there.
- *
- * Layer rule: cmd.
- */
+/* place.h -- whether names lead to one file, and what is there. Layer rule: cmd. */
 #ifndef PLACE_H
 #define PLACE_H
 

@@ -1,17 +1,12 @@
-/*
- * signals.h -- what is done when a signal ends the process: unfinished files go, and a cut input is told.
- *
- * Layer rule: cmd; includes base only.
- */
+/* signals.h -- what is done when a signal ends the process: unfinished files go, and a cut input is told.
+ * Layer rule: cmd; includes base only. */
 #ifndef SIGNALS_H
 #define SIGNALS_H
 
 #include "base/ctx.h"
 
-/*
- * For the whole life of the command `name`: a write beyond the limit of a file's size fails instead of ending
- * the process, and where a mapped file is shorter than it was the command says so and exits 1.
- */
+/* For the whole life of the command `name`: a write beyond the limit of a file's size fails instead of ending
+ * the process, and where a mapped file is shorter than it was the command says so and exits 1. */
 void signals_begin(const char *name);
 
 /* mr_ctx.unfinished: from now on, or no longer, whatever signal ends the process removes the file first. */

@@ -1,10 +1,6 @@
-/*
- * build.h -- what readers gather a model in: faces of any size, groups, attributes of corners.
- *
- * Contract: the reader checks indices, since it knows the line or the byte; the
- * builder triangulates and makes the arrays of the model, in the arena.
- * Layer rule: formats.
- */
+/* build.h -- what readers gather a model in: faces of any size, groups, attributes of corners. Contract: the
+ * reader checks indices, since it knows the line or the byte; the builder triangulates and makes the arrays
+ * of the model, in the arena. Layer rule: formats. */
 #ifndef MR_BUILD_H
 #define MR_BUILD_H
 
@@ -46,11 +42,9 @@ typedef struct mr_builder {
 /* Room for so many triangles, to spare growing. */
 mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;
 
-/*
- * A face of n corners, whose indices are below nv; fewer than three are counted and left out.
- * uv, vn: places of the corners' texture coordinates and normals in the arrays of the builder, MR_NONE of a
- * corner without; NULL where no corner has one.
- */
+/* A face of n corners, whose indices are below nv; fewer than three are counted and left out. uv, vn: places
+ * of the corners' texture coordinates and normals in the arrays of the builder, MR_NONE of a corner without;
+ * NULL where no corner has one. */
 void mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n);
 
 /* The faces to come are marked with this name, cleaned and without blanks around it; `own`: it is another
@@ -63,10 +57,8 @@ void mr_build_library(mr_builder *b, const char *name, size_t bytes);
 /* The faces to come are of this smoothing group. */
 void mr_build_smoothing(mr_builder *b, uint32_t group);
 
-/*
- * A property under its name, of a type of PLY; those of vertices come before those of faces.  Its number,
- * from 1. Its values come row by row; with one that is not of a whole type all are doubles.
- */
+/* A property under its name, of a type of PLY; those of vertices come before those of faces.  Its number,
+ * from 1. Its values come row by row; with one that is not of a whole type all are doubles. */
 size_t mr_build_property(mr_builder *b, const char *name, const char *type, char element);
 void mr_build_value(mr_builder *b, size_t number, size_t row, double x);
 
@@ -79,10 +71,8 @@ bool mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what) MR_WARN_UN
 /* Normals that are not finite become zero, which is none, and are reported.  False where all are. */
 bool mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n) MR_WARN_UNUSED;
 
-/*
- * Values of colours.  Where their type does not say what is full, those of the whole file do: 1, where none
- * is above it, or not far and one is no whole number; else 255; else 65535.
- */
+/* Values of colours.  Where their type does not say what is full, those of the whole file do: 1, where none
+ * is above it, or not far and one is no whole number; else 255; else 65535. */
 typedef struct mr_shades {
 	double most, full; /* of those that were seen; what becomes a byte of 255 */
 	bool broken;       /* one is no whole number */
@@ -132,10 +122,8 @@ mr_build_triangle(mr_builder *b, uint32_t i, uint32_t j, uint32_t k)
 	return true;
 }
 
-/*
- * Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one
- * that is none: NaN, or where the width is 3 all zero.  first: of each number, its first row.
- */
+/* Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one
+ * that is none: NaN, or where the width is 3 all zero.  first: of each number, its first row. */
 void mr_number_rows(
     mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count);
 

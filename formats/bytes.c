@@ -6,11 +6,12 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <libdeflate.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
-enum { CHUNK = 1 << 18, HEAD = 1 << 24 };
+enum { CHUNK = 1 << 18, HEAD = 1 << 24, RATIO = 1032 }; /* deflate packs no more bytes into one */
 
 static mr_status
 failed(mr_ctx *ctx, const char *path, const char *what)
@@ -86,54 +87,44 @@ may_be_gzip(const unsigned char *data, size_t size)
 	return size > 0 && !memcmp(data, magic, size < sizeof magic ? size : sizeof magic);
 }
 
+/* All members; the file ends with the size of what the last of them inflates to, if that can be. */
 static mr_status
-inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, unsigned char **memory, size_t *size)
+inflate_members(mr_ctx *ctx, struct libdeflate_decompressor *d, const mr_file_bytes *in,
+    unsigned char **memory, size_t *done)
 {
-	size_t room = 0, given = 0, done = 0;
+	size_t room = 0, at = 0, most = in->size < SIZE_MAX / RATIO ? RATIO * in->size : SIZE_MAX;
+	enum libdeflate_result r = LIBDEFLATE_INSUFFICIENT_SPACE;
+	size_t used, made;
+	uint32_t last = 0;
 
-	for (;;) {
-		uInt piece = in->size - given > CHUNK ? CHUNK : (uInt)(in->size - given);
-		uInt space;
-		int r;
-
-		if (room == done)
-			MR_TRY(widen(ctx, memory, &room, 4 * CHUNK));
-		space = room - done > CHUNK ? CHUNK : (uInt)(room - done);
-		z->next_in = (unsigned char *)(uintptr_t)(in->data + given);
-		z->avail_in = piece;
-		z->next_out = *memory + done;
-		z->avail_out = space;
-		r = inflate(z, Z_NO_FLUSH);
-		given += piece - z->avail_in;
-		done += space - z->avail_out;
-		*size = done;
-		if (r == Z_STREAM_END) {
-			if (!may_be_gzip(in->data + given, in->size - given))
-				return MR_OK;
-			inflateReset(z);
-		} else if (r == Z_BUF_ERROR && given == in->size) {
-			return mr_fail(ctx, MR_EFORMAT, "gzip data end early, after %zu bytes", in->size);
-		} else if (r == Z_MEM_ERROR) {
-			return mr_fail(ctx, MR_EMEM, "no memory to inflate");
-		} else if (r != Z_OK && r != Z_BUF_ERROR) {
-			return mr_fail(ctx, MR_EFORMAT, "byte %zu: damaged gzip data (%s)", given,
-			    z->msg ? z->msg : "unknown error");
-		}
-	}
+	if (in->size >= sizeof last)
+		memcpy(&last, in->data + in->size - sizeof last, sizeof last);
+	do {
+		if (r == LIBDEFLATE_INSUFFICIENT_SPACE)
+			MR_TRY(widen(ctx, memory, &room, last < most ? (size_t)last + 1 : most));
+		r = libdeflate_gzip_decompress_ex(
+		    d, in->data + at, in->size - at, *memory + *done, room - *done, &used, &made);
+		if (r == LIBDEFLATE_SUCCESS) {
+			at += used;
+			*done += made;
+		} else if (r != LIBDEFLATE_INSUFFICIENT_SPACE)
+			return mr_fail(ctx, MR_EFORMAT, "byte %zu: gzip data are damaged, or end early", at);
+	} while (r == LIBDEFLATE_INSUFFICIENT_SPACE || may_be_gzip(in->data + at, in->size - at));
+	return MR_OK;
 }
 
 static mr_status
 gunzip(mr_ctx *ctx, mr_file_bytes *b)
 {
-	z_stream z = { 0 };
+	struct libdeflate_decompressor *d = libdeflate_alloc_decompressor();
 	unsigned char *memory = NULL;
 	size_t size = 0;
 	mr_status status;
 
-	if (inflateInit2(&z, 15 + 16) != Z_OK)
+	if (!d)
 		return mr_fail(ctx, MR_EMEM, "no memory to inflate");
-	status = inflate_members(ctx, &z, b, &memory, &size);
-	inflateEnd(&z);
+	status = inflate_members(ctx, d, b, &memory, &size);
+	libdeflate_free_decompressor(d);
 	mr_file_bytes_end(b, MR_OK);
 	if (status < 0)
 		mr_memory_free(memory);

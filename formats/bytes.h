@@ -1,6 +1,4 @@
-/*
- * bytes.h -- whole files in, buffered files out; gzip on both sides.  Layer rule: formats.
- */
+/* bytes.h -- whole files in, buffered files out; gzip on both sides.  Layer rule: formats. */
 #ifndef MR_BYTES_H
 #define MR_BYTES_H
 

@@ -1,10 +1,6 @@
-/*
- * format.h -- the table of formats, and what each one's file gives to it.
- *
- * Contract: `sniff` looks at bytes only; `read` fails with "line N: ..." or "byte N: ...",
- * before which mr_model_read puts the file's name; `write` leaves failures to the sink.
- * Layer rule: formats.
- */
+/* format.h -- the table of formats, and what each one's file gives to it. Contract: `sniff` looks at bytes
+ * only; `read` fails with "line N: ..." or "byte N: ...", before which mr_model_read puts the file's name;
+ * `write` leaves failures to the sink. Layer rule: formats. */
 #ifndef MR_FORMAT_H
 #define MR_FORMAT_H
 
@@ -15,14 +11,17 @@
 #include "formats/scene.h"
 #include "mesh/polygon.h"
 
+typedef bool mr_sniff(const unsigned char *data, size_t size);
+typedef mr_status mr_read_model(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+typedef mr_status mr_write_model(mr_sink *s, const mr_model *m);
+
 typedef struct mr_file_format {
 	const char *name;
-	bool binary; /* what is written is not for a terminal */
-	const char
-	    *magic; /* what a file begins with behind blanks, or else, a bar between; NULL: sniff tells */
-	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by magic, name or suffix only */
-	mr_status (*read)(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-	mr_status (*write)(mr_sink *s, const mr_model *m);           /* NULL: read only */
+	bool binary;       /* what is written is not for a terminal */
+	const char *magic; /* what it begins with behind blanks, a bar between; NULL: sniff tells */
+	mr_sniff *sniff;   /* NULL: by magic, name or suffix only */
+	mr_read_model *read;
+	mr_write_model *write;                                       /* NULL: read only */
 	mr_status (*write_scene)(mr_sink *s, const mr_scene *scene); /* NULL: holds one model */
 } mr_file_format;
 
@@ -33,43 +32,12 @@ mr_status mr_model_parse(mr_ctx *ctx, const char *path, const char *format, cons
 /* Passes the mark that a text in UTF-8 may begin with; a binary STL may begin with anything. */
 void mr_skip_mark(const unsigned char **data, size_t *size);
 
-bool mr_obj_sniff(const unsigned char *data, size_t size);
-mr_status mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-mr_status mr_obj_write(mr_sink *s, const mr_model *m);
-
-mr_status mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-mr_status mr_ply_write(mr_sink *s, const mr_model *m);
-mr_status mr_ply_write_ascii(mr_sink *s, const mr_model *m);
-
-/* Whether the size is that of as many triangles as a binary file counts. */
-bool mr_stl_is_binary(const unsigned char *data, size_t size);
-
-bool mr_stl_sniff(const unsigned char *data, size_t size);
-mr_status mr_stl_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-mr_status mr_stl_write(mr_sink *s, const mr_model *m);
-mr_status mr_stl_write_ascii(mr_sink *s, const mr_model *m);
-
-bool mr_off_sniff(const unsigned char *data, size_t size);
-mr_status mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-mr_status mr_off_write(mr_sink *s, const mr_model *m);
-
-bool mr_xyz_sniff(const unsigned char *data, size_t size);
-mr_status mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-mr_status mr_xyz_write(mr_sink *s, const mr_model *m);
-
-mr_status mr_pts_write(mr_sink *s, const mr_model *m);
-mr_status mr_pwn_write(mr_sink *s, const mr_model *m);
-
-bool mr_ptx_sniff(const unsigned char *data, size_t size);
-mr_status mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-
-mr_status mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-
-mr_status mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-
-/* A GLB, and the text of glTF that it may be without. */
-mr_status mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-mr_status mr_glb_write(mr_sink *s, const mr_model *m);
+/* mr_stl_is_binary: whether the size is that of as many triangles as a binary file counts. */
+mr_sniff mr_obj_sniff, mr_stl_is_binary, mr_stl_sniff, mr_off_sniff, mr_xyz_sniff, mr_ptx_sniff;
+mr_read_model mr_gltf_read, mr_las_read, mr_obj_read, mr_off_read, mr_pcd_read, mr_ply_read, mr_ptx_read,
+    mr_stl_read, mr_xyz_read;
+mr_write_model mr_glb_write, mr_obj_write, mr_off_write, mr_ply_write, mr_ply_write_ascii, mr_pts_write,
+    mr_pwn_write, mr_stl_write, mr_stl_write_ascii, mr_xyz_write;
 mr_status mr_glb_write_scene(mr_sink *s, const mr_scene *scene);
 
 /* Reports what a GLB does not keep of the model. */

@@ -1,15 +1,5 @@
-/*
- * formats.h -- models in the formats of the outside world.
- *
- * Contract: a file is recognised by its bytes, never by its name alone; `.gz`
- * of any format is read from a file or a pipe.  Every index is checked and every
- * position is finite, so a model that was read is a valid layer: a vertex without
- * a place stands where another does, and mr_import leaves it out.  Text numbers
- * are read and written so that doubles survive bit for bit.  What a format
- * cannot hold is reported as a finding.
- * Layer rule: formats include base, mesh and themselves; zlib in bytes.c, tinyobj
- * in obj_shim.cc.
- */
+/* formats.h -- models in the formats of the outside world, read from a file or a pipe, `.gz` or not.  Every
+ * index is checked, doubles survive bit for bit, and what a format cannot hold is reported as a finding. */
 #ifndef MR_FORMATS_H
 #define MR_FORMATS_H
 
@@ -32,11 +22,9 @@ typedef struct mr_property {
 	const void *data; /* nv or nf */
 } mr_property;
 
-/*
- * A mesh, or where nf is 0 a cloud of points.  What the file does not have is NULL.  Texture coordinates are
+/* A mesh, or where nf is 0 a cloud of points.  What the file does not have is NULL.  Texture coordinates are
  * in `texcoord`, where every corner of a face has some and those of a vertex agree, else in
- * `corner_texcoord`; normals likewise.
- */
+ * `corner_texcoord`; normals likewise. */
 typedef struct mr_model {
 	const char *path;              /* of the file that is read */
 	const mr_v3 *p;                /* nv */
@@ -58,19 +46,15 @@ typedef struct mr_model {
 	mr_import_result counts; /* of a model that was read */
 } mr_model;
 
-/*
- * Reads a file ("-": stdin) into the arena.  `format` is a name of a format,
- * or NULL: by the bytes and, where no format knows them, by the suffix.  Vertices of
- * STL are joined where equal; polygons are triangulated; isolated vertices, degenerate,
- * duplicate and non-manifold faces are kept.  MR_EMESH for a model without vertices.
- */
+/* Reads a file ("-": stdin) into the arena.  `format` is a name of a format, or NULL: by the bytes and, where
+ * no format knows them, by the suffix.  Vertices of STL are joined where equal; polygons are triangulated;
+ * isolated vertices, degenerate, duplicate and non-manifold faces are kept.  MR_EMESH for a model without
+ * vertices. */
 mr_status mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m) MR_WARN_UNUSED;
 
-/*
- * Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.
- * A regular file is seen whole or not at all (base/outfile.h); where `held` is not NULL it is the caller's to
- * keep or to drop.
- */
+/* Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses. A regular file
+ * is seen whole or not at all (base/outfile.h); where `held` is not NULL it is the caller's to keep or to
+ * drop. */
 mr_status mr_model_write(
     mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_outfile *held) MR_WARN_UNUSED;
 

@@ -1,12 +1,8 @@
-/*
- * gltf.h -- a glTF 2.0 document (Khronos, "glTF 2.0 Specification", 2021): its JSON, buffers and accessors;
- * and the pieces of one that is written.
- *
- * Contract: what an index of the document names is there, what a buffer view or an accessor covers lies
- * inside its buffer, and every failure is MR_EFORMAT with a sentence that names the thing ("accessor 3 ...").
- * Buffers are looked at when something needs them: one whose file is missing is no fault until then. Layer
- * rule: formats; jansson only behind this header.
- */
+/* gltf.h -- a glTF 2.0 document (Khronos, "glTF 2.0 Specification", 2021): its JSON, buffers and accessors;
+ * and the pieces of one that is written. Contract: what an index of the document names is there, what a
+ * buffer view or an accessor covers lies inside its buffer, and every failure is MR_EFORMAT with a sentence
+ * that names the thing ("accessor 3 ..."). Buffers are looked at when something needs them: one whose file is
+ * missing is no fault until then. Layer rule: formats; jansson only behind this header. */
 #ifndef MR_GLTF_H
 #define MR_GLTF_H
 
@@ -82,10 +78,8 @@ typedef struct mr_accessor {
 /* Accessor `number`, which the caller has from mr_gltf_index. */
 mr_status mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a) MR_WARN_UNUSED;
 
-/*
- * The values as reals, normalised ones from -1 or 0 to 1.  x: a->count rows of `width`; what the accessor has
- * no component for is as it was.
- */
+/* The values as reals, normalised ones from -1 or 0 to 1.  x: a->count rows of `width`; what the accessor has
+ * no component for is as it was. */
 void mr_accessor_reals(const mr_accessor *a, size_t width, double *x);
 
 /* Whole numbers, each below `limit`.  index: a->count. */

@@ -1,8 +1,6 @@
-/*
- * glTF 2.0, read: the meshes of the scene as one model.  What glTF must repeat where a seam of normals or
+/* glTF 2.0, read: the meshes of the scene as one model.  What glTF must repeat where a seam of normals or
  * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, and
- * what their corners have is the corners'.
- */
+ * what their corners have is the corners'. */
 #include "formats/gltf.h"
 #include "formats/materials.h"
 #include "mesh/repair.h"

@@ -1,9 +1,6 @@
-/*
- * materials.h -- what a model's materials look like, by the files of materials that its OBJ named.
- *
- * Contract: only regular files below the folder that the caller names are opened, whatever the model says: a
- * path that leads elsewhere is taken for its last name. Layer rule: formats.
- */
+/* materials.h -- what a model's materials look like, by the files of materials that its OBJ named. Contract:
+ * only regular files below the folder that the caller names are opened, whatever the model says: a path that
+ * leads elsewhere is taken for its last name. Layer rule: formats. */
 #ifndef MR_MATERIALS_H
 #define MR_MATERIALS_H
 
@@ -29,10 +26,8 @@ const char *mr_file_in(mr_ctx *ctx, const char *folder, const char *name, size_t
 /* The same in the folder of the model; NULL also of one that has no folder, "-" or "". */
 const char *mr_file_beside(mr_ctx *ctx, const char *model, const char *name, size_t bytes);
 
-/*
- * What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
- * there is reported, no failure.  list: *count, in the arena; none of a model without materials.
- */
+/* What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
+ * there is reported, no failure.  list: *count, in the arena; none of a model without materials. */
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 

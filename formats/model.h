@@ -1,16 +1,12 @@
-/*
- * model.h -- models made better, and models as layers of a frame.  Layer rule: formats.
- */
+/* model.h -- models made better, and models as layers of a frame.  Layer rule: formats. */
 #ifndef MR_MODEL_H
 #define MR_MODEL_H
 
 #include "formats/formats.h"
 #include "mesh/layers.h"
 
-/*
- * Puts the model as this layer, or, where `layer` is NULL, as `mesh`, without faces as `points`; the frame
- * borrows its arrays.
- */
+/* Puts the model as this layer, or, where `layer` is NULL, as `mesh`, without faces as `points`; the frame
+ * borrows its arrays. */
 mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m) MR_WARN_UNUSED;
 
 /* The layer as a model, with all that it has; columns of a number that are none by convention as properties.

@@ -1,8 +1,6 @@
-/*
- * Wavefront OBJ.  tinyobj reads faces, through obj_shim; this file reads v, vt and vn lines, whose numbers
+/* Wavefront OBJ.  tinyobj reads faces, through obj_shim; this file reads v, vt and vn lines, whose numbers
  * must be exact, and names, which may have blanks in them, and checks each face line before tinyobj sees it:
- * tinyobj takes any word for an index and lets indices wrap.
- */
+ * tinyobj takes any word for an index and lets indices wrap. */
 #include "formats/format.h"
 #include "formats/obj_shim.h"
 

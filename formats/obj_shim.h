@@ -1,10 +1,6 @@
-/*
- * obj_shim.h -- tinyobj's callback reader, seen from C.
- *
- * tinyobj splits the lines of faces into corners; obj.c gives it one checked line at
- * a time and reads all else itself: numbers must be exact, and tinyobj's names end at the first blank.
- * Layer rule: formats.
- */
+/* obj_shim.h -- tinyobj's callback reader, seen from C. tinyobj splits the lines of faces into corners; obj.c
+ * gives it one checked line at a time and reads all else itself: numbers must be exact, and tinyobj's names
+ * end at the first blank. Layer rule: formats. */
 #ifndef MR_OBJ_SHIM_H
 #define MR_OBJ_SHIM_H
 

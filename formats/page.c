@@ -12,16 +12,15 @@
 #include <errno.h>
 #include <unistd.h>
 
-/*
- * The most that a page may hold, in bytes of the packed stream: a browser holds it three times, as text, as
- * bytes and unpacked, and gives a page some 2 to 4 GB.
- */
+/* The most that a page may hold, in bytes of the packed stream: a browser holds it three times, as text, as
+ * bytes and unpacked, and gives a page some 2 to 4 GB. */
 static const off_t LARGEST_PAGE = 300000000;
 
 /* Columns of vertices that say where they are on another layer, or that only serve to compute.  Of these a
  * page takes those by which it poses what it can. */
 static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offset", "source_face",
-	"source_bary", "encoded", "before", "rest", "response", "texcoord", "corner_texcoord", "polygon", NULL };
+	"source_bary", "encoded", "before", "rest", "response", "texcoord", "corner_texcoord", "polygon",
+	NULL };
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
 	"base.encoded", "base.response", "handles.transform", NULL };
@@ -110,11 +109,9 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const displa
 	return c->shape.components <= 4 && !mr_is_one_of(c->name, unseen);
 }
 
-/*
- * How the page stores a column: a value is origin + step times a whole number.  Step 0 stores whole numbers.
+/* How the page stores a column: a value is origin + step times a whole number.  Step 0 stores whole numbers.
  * The page keeps the first `components` of a row and works out the rest.  Rows of more than three values are
- * stored from 0; their origin is only passed on.
- */
+ * stored from 0; their origin is only passed on. */
 typedef struct whole_steps {
 	double step, origin[3];
 	uint8_t components;
@@ -161,12 +158,10 @@ sum_steps(const mr_column *c, const whole_steps *s, uint32_t *sums)
 	}
 }
 
-/*
- * Puts the column, decoded, as whole numbers of which the sums over the rows are stored: the packing of
+/* Puts the column, decoded, as whole numbers of which the sums over the rows are stored: the packing of
  * streams takes differences, which then are steps without a sign, the small ones, of either direction, with
  * small numbers.  Steps that are not within 31 bits of the origin are not to be asked for.  A line in `notes`
- * tells the page.
- */
+ * tells the page. */
 static mr_status
 put_steps(mr_ctx *ctx, mr_frame *to, const mr_column *c, const whole_steps *s, mr_text *notes)
 {
@@ -246,11 +241,9 @@ steps_of_column(const mr_column *c, double least)
 	return (whole_steps){ step_of(most), { 0 }, components };
 }
 
-/*
- * A response to maps about the origin is as large as the model is far from there; about the middle of what it
+/* A response to maps about the origin is as large as the model is far from there; about the middle of what it
  * poses it has the digits that matter: w_k - c_k w_3 in place of w_k, with T c - c in place of T's
- * translation.
- */
+ * translation. */
 static mr_status
 centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 {
@@ -271,11 +264,9 @@ centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 	return MR_OK;
 }
 
-/*
- * A browser draws with floats.  Positions are rounded by the model's extent, not by their distance from the
+/* A browser draws with floats.  Positions are rounded by the model's extent, not by their distance from the
  * origin, other numbers by the largest.  The handles' maps, which are few, are those of the stream, and so
- * are columns with what is no number.
- */
+ * are columns with what is no number. */
 static mr_status
 take_column(
     mr_ctx *ctx, mr_frame *from, const mr_column *column, const displaced *d, mr_frame *to, mr_text *notes)
@@ -534,10 +525,8 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers)
 	return MR_OK;
 }
 
-/*
- * The stream in blocks, each an element of its own, which the page reads and drops one by one: no browser has
- * texts of 400 MB.
- */
+/* The stream in blocks, each an element of its own, which the page reads and drops one by one: no browser has
+ * texts of 400 MB. */
 static mr_status
 put_stream(mr_sink *s, FILE *file)
 {

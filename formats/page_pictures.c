@@ -1,8 +1,6 @@
-/*
- * Pictures go into the page as the bytes that their files have, which a browser decodes; but for what is said
+/* Pictures go into the page as the bytes that their files have, which a browser decodes; but for what is said
  * in them about the picture: cameras and places, which are nobody's business, and turns and colour profiles,
- * which mr-render does not follow and a browser would.
- */
+ * which mr-render does not follow and a browser would. */
 #include "formats/page_pictures.h"
 
 #include "formats/image.h"

@@ -6,16 +6,14 @@
 #include "formats/model.h"
 #include "render/gallery.h"
 
-/*
- * mr_gallery_add, and paints the panels that no column colours: with opts->texture, or with what the
+/* mr_gallery_add, and paints the panels that no column colours: with opts->texture, or with what the
  * materials of the layer look like by the files in opts->materials.  What did not change since the frame
- * before is shared. MR_EMISSING where one of them is asked for and no panel is coloured.
- */
+ * before is shared. MR_EMISSING where one of them is asked for and no panel is coloured. */
 mr_status mr_gallery_add_painted(
     mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts) MR_WARN_UNUSED;
 
-/* Finds the texture of a model: the file `picture`, or if NULL the files that its materials name in the folder
- * `materials`.  In the arena of keep, which may be ctx. */
+/* Finds the texture of a model: the file `picture`, or if NULL the files that its materials name in the
+ * folder `materials`.  In the arena of keep, which may be ctx. */
 mr_status mr_paint_model(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const char *picture,
     const char *materials, mr_subject *s) MR_WARN_UNUSED;
 

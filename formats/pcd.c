@@ -1,7 +1,5 @@
-/*
- * PCD, the Point Cloud Library's format, in text, binary, and binary packed by LZF (M. Lehmann, liblzf),
- * field by field.
- */
+/* PCD, the Point Cloud Library's format, in text, binary, and binary packed by LZF (M. Lehmann, liblzf),
+ * field by field. */
 #include "formats/format.h"
 
 enum { FIELDS = 64, COLUMNS = FIELDS + 6 };

@@ -1,8 +1,6 @@
-/*
- * Stanford PLY, read: G. Turk, The PLY polygon file format, 1994.  Text and both byte orders, properties of
+/* Stanford PLY, read: G. Turk, The PLY polygon file format, 1994.  Text and both byte orders, properties of
  * any type in any order, lists, triangle strips.  Numbers of vertices and faces that are nothing to us are
- * kept under their names; other lists and elements are passed over.
- */
+ * kept under their names; other lists and elements are passed over. */
 #include "formats/format.h"
 
 typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;

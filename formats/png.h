@@ -4,10 +4,8 @@
 
 #include "render/canvas.h"
 
-/*
- * Writes the image beside `path` and renames it, so that a half picture is never seen; a device, a pipe or
- * "-", stdout, directly.  The same image gives the same bytes.  MR_EIO.
- */
+/* Writes the image beside `path` and renames it, so that a half picture is never seen; a device, a pipe or
+ * "-", stdout, directly.  The same image gives the same bytes.  MR_EIO. */
 mr_status mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image);
 
 /* A word about a picture, and what it says. */

@@ -1,8 +1,6 @@
-/*
- * PTX, Leica's text of scans: columns, rows, the scanner's position and axes (seven lines), a matrix of four
+/* PTX, Leica's text of scans: columns, rows, the scanner's position and axes (seven lines), a matrix of four
  * rows, by which each point is multiplied from the left, then columns x rows lines x y z intensity [r g b].
- * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, which is no place.
- */
+ * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, which is no place. */
 #include "formats/format.h"
 
 typedef struct ptx {

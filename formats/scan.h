@@ -1,11 +1,6 @@
-/*
- * scan.h -- numbers as text, exactly, and a cursor over text in memory.
- *
- * Contract: reading rounds correctly, as strtod does, bit for bit; writing gives
- * the shortest decimal that reads back as the same double.  Nothing looks behind
- * `end`, and no text needs a terminating NUL.
- * Layer rule: formats.
- */
+/* scan.h -- numbers as text, exactly, and a cursor over text in memory. Contract: reading rounds correctly,
+ * as strtod does, bit for bit; writing gives the shortest decimal that reads back as the same double.
+ * Nothing looks behind `end`, and no text needs a terminating NUL. Layer rule: formats. */
 #ifndef MR_SCAN_H
 #define MR_SCAN_H
 
@@ -66,10 +61,8 @@ bool mr_word_is(const char *text, size_t n, const char *word);
 /* True, and skips it, where the next word is this one, in either case of letters. */
 bool mr_scan_accept(mr_scan *t, const char *word);
 
-/*
- * The next word as a number; "nan", "inf" and their kin are not finite numbers.
- * MR_EFORMAT with the line where the word is something else or missing; `what` is for the sentence.
- */
+/* The next word as a number; "nan", "inf" and their kin are not finite numbers. MR_EFORMAT with the line
+ * where the word is something else or missing; `what` is for the sentence. */
 mr_status mr_scan_real(mr_scan *t, const char *what, double *x);
 
 /* The next word as a whole number of at most `most`. */

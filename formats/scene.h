@@ -1,10 +1,7 @@
-/*
- * scene.h -- what one file holds of several frames and layers, of a format that has places for them.
- *
+/* scene.h -- what one file holds of several frames and layers, of a format that has places for them.
  * Contract: a key frame begins nodes, one for each layer; a delta whose layers have the same triangles gives
  * their nodes another pose, one with others begins nodes of its own.  All is copied into the arena that is
- * kept. Layer rule: formats.
- */
+ * kept. Layer rule: formats. */
 #ifndef MR_SCENE_H
 #define MR_SCENE_H
 
@@ -31,10 +28,8 @@ typedef struct mr_scene {
 	const char *folder; /* of files of materials */
 } mr_scene;
 
-/*
- * Adds a frame.  layers: with commas between, or NULL: the one that mr_layer_result chooses.  keep: the arena
- * of what outlives the frame.
- */
+/* Adds a frame.  layers: with commas between, or NULL: the one that mr_layer_result chooses.  keep: the arena
+ * of what outlives the frame. */
 mr_status
 mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *layers) MR_WARN_UNUSED;
 

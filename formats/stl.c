@@ -1,7 +1,5 @@
-/*
- * Stereolithography: triangles without connectivity, whose corners are joined where equal.  A binary file may
- * begin with "solid", as a text does: its size tells, 84 bytes and 50 for each triangle.
- */
+/* Stereolithography: triangles without connectivity, whose corners are joined where equal.  A binary file may
+ * begin with "solid", as a text does: its size tells, 84 bytes and 50 for each triangle. */
 #include "formats/format.h"
 #include "mesh/name_lists.h"
 #include "mesh/repair.h"

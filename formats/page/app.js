@@ -1,7 +1,5 @@
-/*
- * app.js -- the page at work: what the user has chosen, and the stage and side brought to it.  All changes go through
- * change(), and a picture that is overtaken by another change is not waited for.
- */
+/* app.js -- the page at work: what the user has chosen, and the stage and side brought to it.  All changes go through
+ * change(), and a picture that is overtaken by another change is not waited for. */
 import { colour } from "./coloring.js";
 import { Drawn } from "./draw/drawn.js";
 import { Pictures } from "./draw/pictures.js";

@@ -1,7 +1,5 @@
-/*
- * coloring.js -- what gives the colours: a column, what layers wear, or nothing; of all that is seen.  A
- * side is { frame, layers, drawn }: layers that are seen, and what is drawn of each by its name.
- */
+/* coloring.js -- what gives the colours: a column, what layers wear, or nothing; of all that is seen.  A side is {
+ * frame, layers, drawn }: layers that are seen, and what is drawn of each by its name. */
 import { kindOf, kindsOf, paint, rangeOf } from "./draw/column_colors.js";
 import { costumeOf } from "./draw/pictures.js";
 import { listColors, showLegend } from "./side.js";
@@ -63,10 +61,8 @@ async function legend(frame, all, name, choice) {
 		[] };
 }
 
-/*
- * Colours a side by the choice { color, range }, whose range it finds where there is none; returns what colours: the
- * one chosen, before any is, what the layers wear or their own colours.
- */
+/* Colours a side by the choice { color, range }, whose range it finds where there is none; returns what colours: the
+ * one chosen, before any is, what the layers wear or their own colours. */
 export async function colour({ frame, layers, drawn: by }, choice, pictures) {
 	const all = layers.map((layer) => ({ layer, drawn: by.get(layer.name).drawn }));
 	const names = [...new Set(all.flatMap(({ layer }) => [...(layer.wears ? [TEXTURE] : []),

@@ -1,8 +1,4 @@
-/*
- * banned.h -- calls that lose an error or a bound.
- *
- * Every header of the library includes it through ctx.h.
- */
+/* banned.h -- calls that lose an error or a bound. Every header of the library includes it through ctx.h. */
 #ifndef MR_BASE_BANNED_H
 #define MR_BASE_BANNED_H
 

@@ -8,12 +8,9 @@
 #include <time.h>
 #include <unistd.h>
 
-/*
- * The arena: a stack of blocks, the newest on top.  Small requests share a
- * block; a large one gets a block of its own, whose memory goes back to the
- * system as soon as it is released.  One shared block is kept when it is
- * released: workspace taken again and again may begin at a block's end.
- */
+/* The arena: a stack of blocks, the newest on top.  Small requests share a block; a large one gets a block of
+ * its own, whose memory goes back to the system as soon as it is released.  One shared block is kept when it
+ * is released: workspace taken again and again may begin at a block's end. */
 enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15 };
 
 struct mr_block {

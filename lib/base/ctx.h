@@ -1,20 +1,9 @@
-/*
- * ctx.h -- status codes and the context every library function takes first.
+/* ctx.h -- status codes, and the context that every library function takes first.  The library never prints
+ * and never exits: on failure a function puts one sentence into the context, and its outputs are unchanged.
  *
- * Contract: the library never prints and never exits.  A function returns an
- * mr_status; on failure it has put one sentence with the numbers in it into the
- * context by mr_fail, and its outputs are unchanged.
- *
- * Memory: everything is allocated from the context's arena and stays until the
- * arena is released below it: callers free nothing.  A function that needs
- * workspace allocates its outputs first, takes a mark, and releases to it.
- * Where memory runs out, the public function that was called returns MR_EMEM:
- * MR_ENTER.  Nothing in between sees it, so nothing in between holds what the
- * arena does not know: mr_own.
- *
- * The rooms of lib/, and which may include which, stand in lib/README.md; base includes nothing but the C
- * library and POSIX.
- */
+ * All memory is of the context's arena, until that is released: callers free nothing, and what needs
+ * workspace allocates its outputs before it.  Where memory runs out, the public function that was called
+ * returns MR_EMEM (MR_ENTER), and nothing in between holds what the arena does not know (mr_own). */
 #ifndef MR_BASE_CTX_H
 #define MR_BASE_CTX_H
 
@@ -114,11 +103,9 @@ struct mr_entry {
 void mr_entry_begin(mr_ctx *ctx, mr_entry *entry);
 void mr_entry_end(mr_entry *entry);
 
-/*
- * The first statement of a public function that returns mr_status, or of one whose caller has something to
+/* The first statement of a public function that returns mr_status, or of one whose caller has something to
  * close.  Where memory runs out below it, it returns MR_EMEM, with the sentence set, what the arena got since
- * released, and its outputs as they were.
- */
+ * released, and its outputs as they were. */
 #define MR_ENTER(context)                                                                                    \
 	mr_entry entry_ __attribute__((cleanup(mr_entry_end)));                                              \
 	mr_entry_begin((context), &entry_);                                                                  \
@@ -217,11 +204,9 @@ void *mr_alloc(mr_ctx *ctx, size_t count, size_t size) MR_MEMORY;
 /* The same, zeroed. */
 void *mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size) MR_MEMORY;
 
-/*
- * Grows `old`, which holds `used` objects and came from mr_alloc of this arena
- * (or is NULL), to `count` objects.  The old place is not to be used again: where it
- * was large it is freed, else it stays until it is released.
- */
+/* Grows `old`, which holds `used` objects and came from mr_alloc of this arena (or is NULL), to `count`
+ * objects.  The old place is not to be used again: where it was large it is freed, else it stays until it is
+ * released. */
 void *mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size) MR_MEMORY;
 
 /*

@@ -1,8 +1,5 @@
-/*
- * disjoint_sets.h -- disjoint sets of 0 .. n - 1, joined pairwise (Tarjan 1975, paths halved).
- *
- * Contract: the root of a set is its least element, so the forest does not depend on the order of joins.
- */
+/* disjoint_sets.h -- disjoint sets of 0 .. n - 1, joined pairwise (Tarjan 1975, paths halved). Contract: the
+ * root of a set is its least element, so the forest does not depend on the order of joins. */
 #ifndef MR_BASE_DISJOINT_SETS_H
 #define MR_BASE_DISJOINT_SETS_H
 

@@ -62,11 +62,9 @@ ask_for_huge_pages(char *begin, size_t size)
 #endif
 }
 
-/*
- * Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones.  But to
+/* Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones.  But to
  * have a page from the system again takes longer than to work through it, so that some are kept, and the heap
- * begins with room for them.
- */
+ * begins with room for them. */
 void
 mr_memory_begin(void)
 {

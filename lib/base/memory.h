@@ -4,12 +4,10 @@
 
 #include "base/ctx.h"
 
-/*
- * Memory of `size` bytes, 64-byte aligned, with what was in `old` (NULL: nothing), whose place it takes. What
+/* Memory of `size` bytes, 64-byte aligned, with what was in `old` (NULL: nothing), whose place it takes. What
  * is large lies in a file without a name in the folder ctx->scratch, where there is one, and the system
  * brings it to the disk as memory gets short.  NULL where there is not enough, with errno set, and then `old`
- * is as it was.
- */
+ * is as it was. */
 void *mr_memory(const mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
 
 /* For a process that is ours, at its start: how it keeps memory that it has given back. */
@@ -21,13 +19,11 @@ mr_status mr_no_memory(mr_ctx *ctx, const char *what, double bytes);
 /* Gives it back; NULL is nothing. */
 void mr_memory_free(void *memory);
 
-/*
- * Bytes that can be had without swapping, by what the system, the process's groups and its limits say;
- * infinite where none of them does.  No result may depend on it but a refusal, or a choice that is told.
- */
+/* Bytes that can be had without swapping, by what the system, the process's groups and its limits say;
+ * infinite where none of them does.  No result may depend on it but a refusal, or a choice that is told. */
 double mr_memory_available(void);
 
-/* The most bytes that the process ever held at once; for figures only. */
+/* The most bytes that the process ever held at once, 0 where the system does not say; for figures only. */
 double mr_memory_peak(void);
 
 #endif

@@ -84,11 +84,5 @@ mr_memory_available(void)
 double
 mr_memory_peak(void)
 {
-	double own = 1024 * number_in("/proc/self/status", "VmHWM:");
-	struct rusage usage;
-
-	if (!isnan(own))
-		return own;
-	getrusage(RUSAGE_SELF, &usage); /* no less than that of the program before exec */
-	return 1024 * (double)usage.ru_maxrss;
+	return fmax(0, 1024 * number_in("/proc/self/status", "VmHWM:"));
 }

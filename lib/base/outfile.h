@@ -1,8 +1,5 @@
-/*
- * outfile.h -- files that are seen whole or not at all: what was there stays until they have their name.
- *
- * Until then a file stands beside its place under a random name, which ctx->unfinished is told.
- */
+/* outfile.h -- files that are seen whole or not at all: what was there stays until they have their name.
+ * Until then a file stands beside its place under a random name, which ctx->unfinished is told. */
 #ifndef MR_BASE_OUTFILE_H
 #define MR_BASE_OUTFILE_H
 
@@ -15,10 +12,8 @@ typedef struct mr_outfile {
 	char *temporary; /* what it is called until then; NULL: nothing */
 } mr_outfile;
 
-/*
- * Opens `path` for writing, or what a link of that name leads to, there or not yet.  It gets mode and owner of what
- * is there.  End it by one of the two below.
- */
+/* Opens `path` for writing, or what a link of that name leads to, there or not yet.  It gets mode and owner
+ * of what is there.  End it by one of the two below. */
 mr_status mr_outfile_open(mr_ctx *ctx, const char *path, mr_outfile *f) MR_WARN_UNUSED;
 
 /* Gives the file its name and closes it; with ctx->sync not before it is on the disk.  Where that fails it is

@@ -1,9 +1,6 @@
-/*
- * parallel.h -- loops over several threads whose result does not depend on how many.
- *
- * Contract: a body writes only what belongs to its own indices, or to its own
- * block in mr_parallel_blocks; sums are taken per block and added in order.
- */
+/* parallel.h -- loops over several threads whose result does not depend on how many. Contract: a body writes
+ * only what belongs to its own indices, or to its own block in mr_parallel_blocks; sums are taken per block
+ * and added in order. */
 #ifndef MR_BASE_PARALLEL_H
 #define MR_BASE_PARALLEL_H
 
@@ -12,17 +9,13 @@
 /* Works on the indices [begin, end); `arg` is the caller's. */
 typedef void (*mr_body)(void *arg, size_t begin, size_t end);
 
-/*
- * Runs `body` over [0, count) on the context's threads, in pieces of `grain`
- * indices (a piece begins at a multiple of `grain`; the last may be short).
- * Which thread takes which piece is not fixed.  Small loops run in the caller.
- */
+/* Runs `body` over [0, count) on the context's threads, in pieces of `grain` indices (a piece begins at a
+ * multiple of `grain`; the last may be short). Which thread takes which piece is not fixed.  Small loops run
+ * in the caller. */
 void mr_parallel(const mr_ctx *ctx, size_t count, size_t grain, mr_body body, void *arg);
 
-/*
- * The sum of `term(arg, i)` over [0, count): pieces of 4096 terms are summed in
- * order, then the pieces in order, so it is the same for every number of threads.
- */
+/* The sum of `term(arg, i)` over [0, count): pieces of 4096 terms are summed in order, then the pieces in
+ * order, so it is the same for every number of threads. */
 double mr_parallel_sum(const mr_ctx *ctx, size_t count, double (*term)(void *arg, size_t i), void *arg);
 
 #endif

@@ -12,7 +12,7 @@ mr_rotation_exp(mr_v3 w)
 		return r;
 	half = sin(angle / 2) / (angle / 2);
 	a = half * cos(angle / 2); /* sin / angle */
-	b = half * half / 2; /* (1 - cos) / angle^2 */
+	b = half * half / 2;       /* (1 - cos) / angle^2 */
 	r.m[0] -= b * (w.y * w.y + w.z * w.z);
 	r.m[4] -= b * (w.x * w.x + w.z * w.z);
 	r.m[8] -= b * (w.x * w.x + w.y * w.y);

@@ -41,20 +41,6 @@ mr_sort_unique(uint32_t *x, size_t n)
 	return kept;
 }
 
-static int
-compare_reals(const void *a, const void *b)
-{
-	const double *x = a, *y = b;
-
-	return (*x > *y) - (*x < *y);
-}
-
-void
-mr_sort_reals(double *x, size_t n)
-{
-	qsort(x, n, sizeof *x, compare_reals);
-}
-
 /* Hoare 1961: Algorithm 65. */
 double
 mr_kth(double *x, size_t n, size_t k)

@@ -9,9 +9,6 @@
 /* Sorts and drops repetitions; returns how many are left. */
 size_t mr_sort_unique(uint32_t *x, size_t n);
 
-/* Numbers, none of them nan. */
-void mr_sort_reals(double *x, size_t n);
-
 /* The k-th smallest, from 0, of n > k numbers, none of them nan, which are reordered. */
 double mr_kth(double *x, size_t n, size_t k);
 

@@ -1,6 +1,4 @@
-/*
- * text.h -- a text that grows in the arena, and JSON in it.
- */
+/* text.h -- a text that grows in the arena, and JSON in it. */
 #ifndef MR_BASE_TEXT_H
 #define MR_BASE_TEXT_H
 

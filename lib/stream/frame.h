@@ -1,12 +1,8 @@
-/*
- * frame.h -- a frame: named layers of named, typed columns (man/mr-stream.5).
- *
- * Contract: a column's bytes belong to the reader that read it, or, for a
- * column put by a tool, to the tool, which keeps them until the frame is
- * written (the arena does).  Data are read-only.  Order of columns is kept.
- * This layer knows records, not geometry: shapes are checked against what the
- * caller asks for; what a layer means stands in mesh/layers.h.
- */
+/* frame.h -- a frame: named layers of named, typed columns (man/mr-stream.5). Contract: a column's bytes
+ * belong to the reader that read it, or, for a column put by a tool, to the tool, which keeps them until the
+ * frame is written (the arena does).  Data are read-only.  Order of columns is kept. This layer knows
+ * records, not geometry: shapes are checked against what the caller asks for; what a layer means stands in
+ * mesh/layers.h. */
 #ifndef MR_STREAM_FRAME_H
 #define MR_STREAM_FRAME_H
 
@@ -74,16 +70,12 @@ double mr_column_number(const mr_column *column, size_t row);
 /* Decodes one column, whatever it is. */
 mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
 
-/*
- * Appends a column of another frame as it is, decoded or not; its bytes stay where they are, and must be
- * there until this frame is written.  MR_ERANGE where this frame has a column of that layer and name.
- */
+/* Appends a column of another frame as it is, decoded or not; its bytes stay where they are, and must be
+ * there until this frame is written.  MR_ERANGE where this frame has a column of that layer and name. */
 mr_status mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column);
 
-/*
- * Passes on all columns of another frame; its history follows the one that is there.  MR_ERANGE where a
- * layer, or a column of no layer, is in both.
- */
+/* Passes on all columns of another frame; its history follows the one that is there.  MR_ERANGE where a
+ * layer, or a column of no layer, is in both. */
 mr_status mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from);
 
 /* The text of a column of no layer, a line each; none where it is not there. */
@@ -95,10 +87,8 @@ bool mr_frame_begins_layer(const mr_frame *frame, size_t i);
 /* Appends one line to the frame's history; control characters and bytes that are not UTF-8 become '?'. */
 mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);
 
-/*
- * Says at the end of what was written that this process fails, and has said why, to those of its process
- * group. What cannot be written is not.
- */
+/* Says at the end of what was written that this process fails, and has said why, to those of its process
+ * group. What cannot be written is not. */
 void mr_writer_fail(mr_ctx *ctx, mr_writer *w);
 
 /* Whether reading failed since the stream ends so, and the process that said why is of the same group as

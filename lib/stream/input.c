@@ -27,6 +27,21 @@ mr_heap(mr_ctx *ctx, void *old, size_t size)
 	return p;
 }
 
+mr_status
+mr_heap_room(mr_ctx *ctx, void *array, size_t size, size_t count, size_t *room)
+{
+	void *p;
+
+	if (count <= *room)
+		return MR_OK;
+	memcpy(&p, array, sizeof p); /* a pointer of any type */
+	if (!(p = mr_heap(ctx, p, 2 * count * size)))
+		return MR_EMEM;
+	memcpy(array, &p, sizeof p);
+	*room = 2 * count;
+	return MR_OK;
+}
+
 /* Maps what is left of a regular file, where that is aligned; else it is read like a pipe. */
 static void
 map_rest(mr_input *in)

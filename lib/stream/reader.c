@@ -101,10 +101,8 @@ check_padding(mr_ctx *ctx, const piece *p)
 	return MR_OK;
 }
 
-/*
- * What can be said against a record once it is there.  The checksum of a column is verified whether or not it
- * is used: a wrong name would hide it from whoever looks for it.
- */
+/* What can be said against a record once it is there.  The checksum of a column is verified whether or not it
+ * is used: a wrong name would hide it from whoever looks for it. */
 static mr_status
 check_piece(mr_ctx *ctx, const piece *p)
 {
@@ -248,22 +246,6 @@ check_count(mr_ctx *ctx, const mr_reader *r, size_t columns)
 	return MR_OK;
 }
 
-static mr_status
-room_for_one(mr_ctx *ctx, mr_reader *r)
-{
-	size_t room = 2 * r->room + 16;
-	mr_stored **grown;
-
-	if (r->count < r->room)
-		return MR_OK;
-	grown = mr_heap(ctx, r->stored, room * sizeof(mr_stored *));
-	if (!grown)
-		return MR_EMEM;
-	r->stored = grown;
-	r->room = room;
-	return MR_OK;
-}
-
 /* A column takes its old place, or the last. */
 static mr_status
 keep(mr_ctx *ctx, mr_reader *r, const piece *p)
@@ -276,7 +258,7 @@ keep(mr_ctx *ctx, mr_reader *r, const piece *p)
 	if (p->head.size > SIZE_MAX / 2)
 		return misplaced(ctx, p, "is too large for this machine");
 	MR_TRY(check_count(ctx, r, r->sent + 1));
-	MR_TRY(room_for_one(ctx, r));
+	MR_TRY(mr_heap_room(ctx, &r->stored, sizeof *r->stored, r->count + 1, &r->room));
 	s = mr_heap(ctx, NULL, sizeof *s);
 	if (!s)
 		return MR_EMEM;
@@ -350,17 +332,8 @@ read_columns(mr_ctx *ctx, mr_reader *r)
 static mr_status
 show(mr_ctx *ctx, mr_reader *r)
 {
-	size_t room = r->count + 16;
-	mr_column *grown;
-
 	MR_TRY(check_count(ctx, r, r->count));
-	if (r->view_room < room) {
-		grown = mr_heap(ctx, r->view, 2 * room * sizeof *grown);
-		if (!grown)
-			return MR_EMEM;
-		r->view = grown;
-		r->view_room = 2 * room;
-	}
+	MR_TRY(mr_heap_room(ctx, &r->view, sizeof *r->view, r->count + 16, &r->view_room));
 	for (size_t i = 0; i < r->count; i++) {
 		mr_stored *s = r->stored[i];
 		mr_column *c = &r->view[i];

@@ -1,11 +1,6 @@
-/*
- * stored.h -- bytes that outlive a frame: the input of a reader, and the columns it keeps.
- *
- * Contract: this memory is of the heap, not the context's arena, which the
- * command releases between frames; it is had through one function, so that
- * tests can make it fail.
- * Private to this room.
- */
+/* stored.h -- bytes that outlive a frame: the input of a reader, and the columns it keeps. Contract: this
+ * memory is of the heap, not the context's arena, which the command releases between frames; it is had
+ * through one function, so that tests can make it fail. Private to this room. */
 #ifndef MR_STREAM_STORED_H
 #define MR_STREAM_STORED_H
 
@@ -30,6 +25,9 @@ typedef struct mr_stored {
 /* mr_memory; the sentence is set where it fails.  Counts as an allocation for ctx->fail_at. */
 void *mr_heap(mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
 
+/* Room for `count` objects in an array of the heap: twice as many where it grows. */
+mr_status mr_heap_room(mr_ctx *ctx, void *array, size_t size, size_t count, size_t *room) MR_WARN_UNUSED;
+
 /* Bytes from a descriptor: a map of a regular file, or blocks. */
 typedef struct mr_input {
 	int fd;
@@ -52,10 +50,8 @@ void mr_input_close(mr_input *in);
 /* The next header.  *got: its bytes; less than MR_HEADER only where the input ends. */
 mr_status mr_input_header(mr_ctx *ctx, mr_input *in, unsigned char header[MR_HEADER], size_t *got);
 
-/*
- * The `n` bytes behind the header just taken.  *record: header and bytes, in the map or in *heap, which is
- * the caller's to free.  MR_END where the input ends before.
- */
+/* The `n` bytes behind the header just taken.  *record: header and bytes, in the map or in *heap, which is
+ * the caller's to free.  MR_END where the input ends before. */
 mr_status mr_input_payload(mr_ctx *ctx, mr_input *in, const unsigned char header[MR_HEADER], uint64_t n,
     const unsigned char **record, void **heap) MR_WARN_UNUSED;
 

@@ -177,12 +177,9 @@ same_values(const sent *a, const sent *b)
 	       a->print == b->print;
 }
 
-/*
- * What a delta sends.  The reader keeps the order of columns that it has and
- * appends others; so as long as the frame's columns come in the order in which
- * they were sent they are kept or replaced, and what follows the first new one
- * is sent (again), behind a DROP.
- */
+/* What a delta sends.  The reader keeps the order of columns that it has and appends others; so as long as
+ * the frame's columns come in the order in which they were sent they are kept or replaced, and what follows
+ * the first new one is sent (again), behind a DROP. */
 static void
 compare(const mr_writer *w, plan *plans, size_t count, bool *survives)
 {
@@ -287,21 +284,6 @@ check(mr_ctx *ctx, const mr_writer *w, const mr_frame *f)
 	return mr_frame_check_rows(ctx, f, MR_ERANGE);
 }
 
-static mr_status
-reserve(mr_ctx *ctx, mr_writer *w, size_t count)
-{
-	sent *grown;
-
-	if (count <= w->room)
-		return MR_OK;
-	grown = mr_heap(ctx, w->sent, 2 * count * sizeof *grown);
-	if (!grown)
-		return MR_EMEM;
-	w->sent = grown;
-	w->room = 2 * count;
-	return MR_OK;
-}
-
 /* Everything that can fail but for the writing comes first, so that a frame is sent whole or not at all. */
 static mr_status
 put(mr_ctx *ctx, mr_writer *w, const mr_frame *f)
@@ -310,7 +292,7 @@ put(mr_ctx *ctx, mr_writer *w, const mr_frame *f)
 	bool *survives = MR_NEW_ZERO(ctx, w->count, bool);
 	bool key = f->key || w->whole;
 
-	MR_TRY(reserve(ctx, w, f->count));
+	MR_TRY(mr_heap_room(ctx, &w->sent, sizeof *w->sent, f->count, &w->room));
 	for (size_t i = 0; i < f->count; i++) {
 		plans[i].now = identify(&f->columns[i]);
 		plans[i].send = true;
@@ -332,12 +314,10 @@ mr_status
 mr_writer_put(mr_ctx *ctx, mr_writer *w, const mr_frame *frame)
 {
 	MR_SCOPE(ctx);
-	mr_status status;
 
 	MR_ENTER(ctx);
 	MR_TRY(check(ctx, w, frame));
-	status = put(ctx, w, frame);
-	return status;
+	return put(ctx, w, frame);
 }
 
 mr_status

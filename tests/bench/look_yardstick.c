@@ -79,13 +79,21 @@ bent_share(mr_ctx *ctx, const mr_mesh *m)
 	return (double)bent / fmax(1, (double)inner);
 }
 
+static int
+compare_reals(const void *a, const void *b)
+{
+	const double *x = a, *y = b;
+
+	return (*x > *y) - (*x < *y);
+}
+
 /* Bits a number, of numbers rounded to whole ones; they are sorted. */
 static double
 entropy(double *x, size_t n)
 {
 	double bits = 0;
 
-	mr_sort_reals(x, n);
+	qsort(x, n, sizeof *x, compare_reals);
 	for (size_t i = 0, end; i < n; i = end) {
 		for (end = i; end < n && x[end] == x[i];)
 			end++;

@@ -1,7 +1,5 @@
-/*
- * pose.js -- where handles go: a pose of each that was dragged, { handle, translate, rotate: axis and degrees, scale },
- * as mr-pose applies it, lib/edit/handles.c; the line of commands that does the same; the steps back and forth.
- */
+/* pose.js -- where handles go: a pose of each that was dragged, { handle, translate, rotate: axis and degrees, scale },
+ * as mr-pose applies it, lib/edit/handles.c; the line of commands that does the same; the steps back and forth. */
 import { Matrix4, Quaternion, Vector3 } from "three/build/three.module.js";
 
 const rest = (handle) => ({ handle, translate: [0, 0, 0], rotate: [0, 0, 1, 0], scale: [1, 1, 1] });
@@ -46,10 +44,8 @@ function lineOf(poses) {
 }
 
 export class Pose {
-	/*
-	 * centroids: of the handles at rest, by number, holes where a number is not in use; start: maps that the stream
-	 * has already; extent: of the model.
-	 */
+	/* centroids: of the handles at rest, by number, holes where a number is not in use; start: maps that the stream
+	 * has already; extent: of the model. */
 	constructor(centroids, start, extent) {
 		this.centroids = centroids;
 		this.numbers = Object.keys(centroids).map(Number);

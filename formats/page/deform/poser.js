@@ -1,7 +1,5 @@
-/*
- * poser.js -- what follows the handles, as mr-decode makes it when nothing moves any more: the base by its response to
- * them, and over it the mesh by its detail (library/detail.c).
- */
+/* poser.js -- what follows the handles, as mr-decode makes it when nothing moves any more: the base by its response to
+ * them, and over it the mesh by its detail (library/detail.c). */
 import { library } from "../library/compile.js";
 import { centred } from "../mesh/surface.js";
 import { columnOf } from "../stream/stream.js";

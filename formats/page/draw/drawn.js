@@ -10,10 +10,8 @@ const WHITE = [255, 255, 255];
 
 const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);
 
-/*
- * What is drawn of a layer; `position` and `triangles` are those of the stream, around the centre.  before: what was
- * drawn of it in another frame, or undefined.
- */
+/* What is drawn of a layer; `position` and `triangles` are those of the stream, around the centre.  before: what was
+ * drawn of it in another frame, or undefined. */
 export class Drawn {
 	constructor(position, triangles, normal, extent, before) {
 		const again = before && before.materials.surface === Boolean(triangles);

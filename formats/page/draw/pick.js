@@ -16,10 +16,8 @@ function nearestCorner(p, index, face, place) {
 	return vertex;
 }
 
-/*
- * Of the points that are drawn within `radius` of the place (x, y), all in halves of the picture's height, the
- * nearest to the eye.  m: the 16 numbers of projection times view.
- */
+/* Of the points that are drawn within `radius` of the place (x, y), all in halves of the picture's height, the nearest
+ * to the eye.  m: the 16 numbers of projection times view. */
 function nearestPoint(p, m, x, y, radius, aspect) {
 	let best = Infinity, vertex = -1;
 

@@ -1,7 +1,5 @@
-/*
- * pictures.js -- the pictures of the page, decoded when they are asked for, and what a layer looks like that wears
- * them: pictures and colours of its faces.
- */
+/* pictures.js -- the pictures of the page, decoded when they are asked for, and what a layer looks like that wears
+ * them: pictures and colours of its faces. */
 import * as THREE from "three/build/three.module.js";
 import { PLAIN } from "./colors.js";
 
@@ -88,10 +86,8 @@ function placed(places, k) {
 	return there;
 }
 
-/*
- * What a layer wears: the looks, which of them each face has, and the place of each corner.  A face without a place in
- * its picture has the colour of its material.
- */
+/* What a layer wears: the looks, which of them each face has, and the place of each corner.  A face without a place in
+ * its picture has the colour of its material. */
 export async function costumeOf(layer, pictures) {
 	const { looks, of } = await looksOf(layer.wears, pictures), t = await layer.triangles.values();
 	const places = placesOf(layer.texcoord, layer.texcoord && await layer.texcoord.values(), t),

@@ -1,7 +1,5 @@
-/*
- * library.js -- the library as WebAssembly, and arrays in its memory: they are at a number there, and move out of it as
- * copies, for what is in it moves when it grows.
- */
+/* library.js -- the library as WebAssembly, and arrays in its memory: they are at a number there, and move out of it as
+ * copies, for what is in it moves when it grows. */
 export class Library {
 	constructor(run) {
 		this.run = run;

@@ -99,8 +99,7 @@ make_list(surface *s, size_t n)
 	s->found = MR_NEW(&s->list, n, uint32_t);
 }
 
-/* The vertices no farther over the surface than that from a place on a face: how many; `found` has
- * them. */
+/* The vertices no farther over the surface than that from a place on a face: how many; `found` has them. */
 MR_EXPORT(surface_disc)
 size_t
 surface_disc(surface *s, uint32_t face, const mr_v3 *place, double radius)

@@ -1,8 +1,6 @@
-/*
- * levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it from control mesh and heights: a
+/* levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it from control mesh and heights: a
  * layer whose columns are computed when they are asked for, on the level that is chosen.  The page's text names the
- * layer.
- */
+ * layer. */
 import { Column } from "../stream/codec.js";
 import { library } from "../library/compile.js";
 import { columnOf, keyOf } from "../stream/stream.js";

@@ -1,7 +1,5 @@
-/*
- * strokes.js -- painting by mouse, pen or finger: a brush over the surface, a click on a connected part.  Meanwhile the
- * right button or two fingers turn the model, and so does a stroke that begins beside it.
- */
+/* strokes.js -- painting by mouse, pen or finger: a brush over the surface, a click on a connected part.  Meanwhile the
+ * right button or two fingers turn the model, and so does a stroke that begins beside it. */
 import * as THREE from "three/build/three.module.js";
 import { hitAt } from "../draw/pick.js";
 

@@ -1,8 +1,6 @@
-/*
- * takeaway.js -- painted regions out of the page: as a file for mr-select, and as a script that gives them to the
+/* takeaway.js -- painted regions out of the page: as a file for mr-select, and as a script that gives them to the
  * page's stream. No word of the script comes from the stream but for its file's name, of which fileOf keeps letters,
- * digits and few signs.
- */
+ * digits and few signs. */
 import { HANDLE } from "./regions.js";
 import { write } from "./selection_file.js";
 import { columnOf, fileOf } from "../stream/stream.js";

@@ -1,7 +1,5 @@
-/*
- * codec.js -- the values of a column: raw, or packed (mr-stream 5, codec 1): differences of rows, their bytes in
- * planes, deflated.
- */
+/* codec.js -- the values of a column: raw, or packed (mr-stream 5, codec 1): differences of rows, their bytes in
+ * planes, deflated. */
 import { library } from "../library/compile.js";
 
 const SIZE = { d: 8, u: 4, b: 1, t: 1 };
@@ -30,10 +28,8 @@ function signed(n) {
 	return n >>> 1 ^ -(n & 1);
 }
 
-/*
- * The values of a column that was written as sums of such steps (the text `page`): whole numbers modulo 2^32, or, where
- * there is a step, so many steps from the origin; what that is of rows of more than three is for others to know.
- */
+/* The values of a column that was written as sums of such steps (the text `page`): whole numbers modulo 2^32, or, where
+ * there is a step, so many steps from the origin; what that is of rows of more than three is for others to know. */
 function fromSums(sums, components, { step, origin }) {
 	const out = step ? new Float64Array(sums.length) : new Uint32Array(sums.length);
 

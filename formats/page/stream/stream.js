@@ -1,7 +1,5 @@
-/*
- * stream.js -- bytes of a stream to frames (mr-stream 5).  A frame is a name and columns, of which one that a delta
- * keeps is the same object in both frames; nothing is unpacked here.
- */
+/* stream.js -- bytes of a stream to frames (mr-stream 5).  A frame is a name and columns, of which one that a delta
+ * keeps is the same object in both frames; nothing is unpacked here. */
 import { Column } from "./codec.js";
 
 const HEADER = 64;
