@@ -39,6 +39,11 @@ static const double ALONG = 1.5, GAP = 0.5;
  */
 static const double JUMP = 0.85, EVEN = 2;
 
+/* Of the edges that seem to be sharp more than a share are: MOST of all, LIKELY of those in PATCHES of VOTERS
+ * vertices, where curves are short. */
+static const double MOST = 0.5, LIKELY = 0.2;
+enum { VOTERS = 512, PATCHES = 8 };
+
 /* Planes met from a place: A = sum n n^T, b = sum n (n . to the point). */
 typedef struct meeting {
 	double a[6];
@@ -201,6 +206,7 @@ side_of(const sight *s, const uint32_t *near, mr_v3 at, mr_v3 outer)
 typedef struct finder {
 	const mr_mesh *m;
 	mr_topology topo;
+	const mr_v3 *normal; /* of each vertex */
 	const mr_simplify_cloud *cloud;
 	sight s;          /* of the points of it that are looked at */
 	uint32_t *number; /* of each point of the cloud among those; UINT32_MAX */
@@ -345,9 +351,10 @@ drop_curves(mr_ctx *ctx, const finder *f, crossing *c, size_t n)
 	return any;
 }
 
-/* Numbers the edges that are crossed by curves: none, where most that seem to be are not. */
+/* Numbers the edges that are crossed by curves: none unless more than a share of those that seem to be are.
+ */
 static mr_status
-cut_edges(mr_ctx *ctx, finder *f)
+cut_edges(mr_ctx *ctx, finder *f, double share)
 {
 	size_t nh = 3 * f->m->nf, n = 0;
 	uint32_t *near;
@@ -376,7 +383,7 @@ cut_edges(mr_ctx *ctx, finder *f)
 		if (f->middle[h] != MR_NONE)
 			f->middle[h] = e < h ? f->middle[e] : (uint32_t)(f->m->nv + f->cut++);
 	}
-	f->cut = 2 * f->cut > n ? f->cut : 0;
+	f->cut = (double)f->cut > share * (double)n ? f->cut : 0;
 	return MR_OK;
 }
 
@@ -547,7 +554,7 @@ make_way(mr_ctx *ctx, const cutting *c, size_t nv)
 /* The vertices about edges across which the normals of the surface turn by two thirds of the angle, on which
  * a wrap that rounds an edge turns. */
 static size_t
-find_turns(mr_ctx *ctx, const finder *f, const mr_v3 *normal, uint32_t *at, mr_v3 *place)
+find_turns(mr_ctx *ctx, const finder *f, uint32_t *at)
 {
 	uint8_t *seen = MR_NEW_ZERO(ctx, f->m->nv, uint8_t);
 	double turn = cos(ANGLE / 1.5 * MR_PI / 180);
@@ -555,30 +562,29 @@ find_turns(mr_ctx *ctx, const finder *f, const mr_v3 *normal, uint32_t *at, mr_v
 
 	for (uint32_t h = 0; h < 3 * f->m->nf; h++) {
 		uint32_t twin = f->topo.twin[h];
-		if (twin != MR_NONE && mr_dot(normal[mr_he_to(f->m, mr_he_next(h))],
-					   normal[mr_he_to(f->m, mr_he_next(twin))]) < turn)
+		if (twin != MR_NONE && mr_dot(f->normal[mr_he_to(f->m, mr_he_next(h))],
+					   f->normal[mr_he_to(f->m, mr_he_next(twin))]) < turn)
 			for (int k = 0; k < 3; k++)
 				seen[f->m->t[h / 3].v[k]] = 1;
 	}
 	for (uint32_t v = 0; v < f->m->nv; v++)
-		if (seen[v]) {
-			at[n] = v;
-			place[n++] = f->m->p[v];
-		}
+		if (seen[v])
+			at[n++] = v;
 	return n;
 }
 
-/* Looks at the sides of the vertices where the surface turns, by the points near them. */
+/* Looks at the sides of n vertices, by the points near them. */
 static mr_status
-look(mr_ctx *ctx, finder *f)
+look(mr_ctx *ctx, finder *f, const uint32_t *at, size_t n)
 {
-	size_t nv = f->m->nv, n, np = 0;
-	uint32_t *at = MR_NEW(ctx, nv, uint32_t), *near, *number = MR_NEW(ctx, f->cloud->n, uint32_t);
-	mr_v3 *normal = MR_NEW(ctx, nv, mr_v3), *place = MR_NEW(ctx, nv, mr_v3), *p;
+	size_t np = 0;
+	uint32_t *near, *number = MR_NEW(ctx, f->cloud->n, uint32_t);
+	mr_v3 *place = MR_NEW(ctx, n, mr_v3), *p;
 
-	f->side = MR_NEW_ZERO(ctx, nv, side);
-	mr_vertex_normals(f->m, normal);
-	n = find_turns(ctx, f, normal, at, place);
+	f->side = MR_NEW_ZERO(ctx, f->m->nv, side);
+	for (size_t i = 0; i < n; i++)
+		place[i] = f->m->p[at[i]];
+	f->number = NULL;
 	MR_TRY(query(ctx, f, place, n, &near));
 	memset(number, 0xff, f->cloud->n * sizeof *number);
 	p = MR_NEW(ctx, n * NEAREST, mr_v3);
@@ -599,7 +605,51 @@ look(mr_ctx *ctx, finder *f)
 		spread(ctx, &f->s, np);
 	}
 	for (size_t i = 0; i < n; i++)
-		f->side[at[i]] = side_of(&f->s, near + NEAREST * i, place[i], normal[at[i]]);
+		f->side[at[i]] = side_of(&f->s, near + NEAREST * i, place[i], f->normal[at[i]]);
+	return MR_OK;
+}
+
+/* Some of n vertices, and those of them around these, patch by patch; patch: VOTERS.  Returns how many. */
+static size_t
+take_patches(mr_ctx *ctx, const finder *f, const uint32_t *at, size_t n, uint32_t *patch)
+{
+	uint8_t *due = MR_NEW_ZERO(ctx, f->m->nv, uint8_t);
+	size_t count = 0;
+
+	for (size_t i = 0; i < n; i++)
+		due[at[i]] = 1;
+	for (size_t i = 0; i < PATCHES; i++) {
+		size_t next = count, end = count + VOTERS / PATCHES;
+		patch[count] = at[i * n / PATCHES];
+		count += due[patch[count]];
+		for (due[patch[next]] = 0; next < count; next++) {
+			uint32_t first = f->topo.out[patch[next]], h = first;
+			do {
+				uint32_t to = mr_he_to(f->m, h);
+				if (due[to] && count < end) {
+					patch[count++] = to;
+					due[to] = 0;
+				}
+				h = mr_he_ccw(&f->topo, h);
+			} while (h != MR_NONE && h != first);
+		}
+	}
+	return count;
+}
+
+/* Whether there may be sharp edges, by patches of n vertices where the surface turns. */
+static mr_status
+vote(mr_ctx *ctx, finder *f, const uint32_t *at, size_t n, bool *likely)
+{
+	MR_SCOPE(ctx);
+	uint32_t patch[VOTERS];
+
+	*likely = true;
+	if (n <= VOTERS)
+		return MR_OK;
+	MR_TRY(look(ctx, f, patch, take_patches(ctx, f, at, n, patch)));
+	MR_TRY(cut_edges(ctx, f, LIKELY));
+	*likely = f->cut > 0;
 	return MR_OK;
 }
 
@@ -611,13 +661,23 @@ mr_find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_me
 	cutting cut;
 	mr_guard guard;
 	mr_mark here = mr_mark_take(ctx);
+	uint32_t *at = MR_NEW(ctx, m->nv, uint32_t);
+	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3);
+	bool likely;
+	size_t n;
 
 	*out = *m;
 	*mark = NULL;
 	f.middle = MR_NEW(ctx, 3 * m->nf, uint32_t);
 	MR_TRY(mr_topology_build(ctx, m, &f.topo));
-	MR_TRY(look(ctx, &f));
-	MR_TRY(cut_edges(ctx, &f));
+	mr_vertex_normals(m, normal);
+	f.normal = normal;
+	n = find_turns(ctx, &f, at);
+	MR_TRY(vote(ctx, &f, at, n, &likely));
+	if (likely) {
+		MR_TRY(look(ctx, &f, at, n));
+		MR_TRY(cut_edges(ctx, &f, MOST));
+	}
 	if (f.cut == 0) {
 		mr_mark_release(ctx, here);
 		return MR_OK;
