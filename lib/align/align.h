@@ -1,8 +1,5 @@
-/*
- * align.h -- the rigid motion that brings one surface or cloud onto another, wherever they are.
- *
- * Contract: deterministic, the same for any number of threads; nothing depends on the axes or the unit.
- */
+/* align.h -- the rigid motion that brings one surface or cloud onto another, wherever they are; nothing
+ * depends on axes, units or threads. */
 #ifndef MR_ALIGN_ALIGN_H
 #define MR_ALIGN_ALIGN_H
 
@@ -21,7 +18,7 @@ mr_align(mr_ctx *ctx, mr_align_side a, mr_align_side b, bool scale, mr_align_res
 
 /* Reports as unaligned what is apart, by its comparison, and a quarter of that after a motion; where somebody
  * listens. */
-mr_status mr_align_judge(
-    mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_comparison *apart) MR_WARN_UNUSED;
+mr_status
+mr_align_judge(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_comparison *apart) MR_WARN_UNUSED;
 
 #endif

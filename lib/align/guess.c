@@ -1,7 +1,5 @@
-/*
- * Where one side may lie on the other: points of like features in pairs, as two points with normals fix a
- * motion (Drost, Ulrich, Navab, Ilic 2010; Fischler, Bolles 1981).
- */
+/* Where one side may lie on the other: two points with normals fix a motion (Drost, Ulrich, Navab, Ilic 2010;
+ * Fischler, Bolles 1981). */
 #include "align/model.h"
 
 #include "base/parallel.h"

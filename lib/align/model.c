@@ -1,7 +1,5 @@
-/*
- * Samples of a side: many, on planes of least squares through their neighbours, so that noise averages out;
- * and few of even density, with fast point feature histograms (Rusu, Blodow, Beetz 2009).
- */
+/* Samples of a side: many, on planes fitted to their neighbours; few of even density, with fast point feature
+ * histograms (Rusu, Blodow, Beetz 2009). */
 #include "align/model.h"
 
 #include "base/parallel.h"

@@ -1,7 +1,5 @@
-/*
- * correspondence.h -- where each vertex of a mesh stands on its base by the source map, which says the
- * reverse.
- */
+/* correspondence.h -- where each vertex of a mesh stands on its base, by the source map, which says the
+ * reverse. */
 #ifndef MR_EDIT_CORRESPONDENCE_H
 #define MR_EDIT_CORRESPONDENCE_H
 

@@ -52,10 +52,8 @@ count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	return MR_OK;
 }
 
-/*
- * The free vertices whose component has a constrained neighbour: the others would make K singular.  part:
- * sets of one vertex each, which become the components' roots.
- */
+/* The free vertices whose component has a constrained neighbour: the others would make K singular.  part:
+ * sets of one vertex each, which become the components' roots. */
 static void
 find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored, uint32_t *part)
 {
@@ -269,10 +267,8 @@ respond_to(mr_ctx *ctx, mr_deform *d, size_t h, const mr_v3 *p0, double *respons
 	return MR_OK;
 }
 
-/*
- * Where nothing is fixed the lowest handle moves the whole, p = T p0 + z: its response is
- * what the others leave of (x, y, z, 1).
- */
+/* Without fixed vertices the lowest handle moves the whole: its response is what the others leave of (x, y,
+ * z, 1). */
 static void
 respond_to_whole(const mr_deform *d, const mr_v3 *p0, double *response)
 {

@@ -1,11 +1,5 @@
-/*
- * deform.h -- boundary-constraint modelling: D^k p = 0 on free vertices, fixed and handle vertices given.
- *
- * Contract: the system is assembled and factored once, on the rest positions; every
- * solve after that changes right-hand sides only.  Regions are those of
- * mesh/layers.h.  A free component without a constrained vertex follows the
- * surface near it.
- */
+/* deform.h -- boundary-constraint modelling: D^k p = 0 on free vertices, fixed and handle vertices given.
+ * The system is factored once, on the rest positions; solves change right-hand sides only. */
 #ifndef MR_EDIT_DEFORM_H
 #define MR_EDIT_DEFORM_H
 
@@ -14,12 +8,8 @@
 
 typedef struct mr_deform mr_deform;
 
-/*
- * Assembles and factors the system on the mesh `rest` with one region per vertex.  MR_EMESH where
- * there is no free or no constrained vertex, MR_ENUMERIC where the matrix is not positive definite.  ties: or
- * NULL.
- * *deform borrows nothing.
- */
+/* Assembles and factors the system on the mesh `rest` with one region per vertex.  MR_EMESH without a free or
+ * a constrained vertex, MR_ENUMERIC if not positive definite.  ties: or NULL.  *deform borrows nothing. */
 mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
     const mr_deform_opts *opts, mr_deform **deform) MR_WARN_UNUSED;
 
@@ -35,23 +25,18 @@ const uint32_t *mr_deform_region(const mr_deform *d);
 size_t mr_deform_handles(const mr_deform *d);
 
 /*
- * Poses the surface p0 by maps of the handles, p = T p0 + z, D^k z = 0 on the free vertices, or where an
- * energy has the differentials of p0 (deform_energy.h); maps NULL is the undeformed solve: constrained
- * vertices stay at p0, and D^k p = 0 on the free ones.  MR_ERANGE where a map has no vertex to move.  out:
- * nv, the caller's, not p0.
+ * Poses the surface p0 by maps of the handles, p = T p0 + z, D^k z = 0 on the free vertices, or as an energy
+ * has it (deform_energy.h); maps NULL: constrained vertices stay, and D^k p = 0.  MR_ERANGE where a map has
+ * no vertex to move.  out: nv, the caller's, not p0.
  */
 mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out);
 
-/*
- * The response of every vertex to the handles' affine maps, for mr_pose_by_response.
- * response: nv rows of 4 mr_deform_handles values, the caller's.
- */
+/* The response of every vertex to the handles' maps, for mr_pose_by_response: nv rows of 4 mr_deform_handles
+ * values, the caller's. */
 mr_status mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response);
 
-/*
- * A factored system that serves frame after frame: it is used again where a delta frame has left all that it
- * depends on as it was, so it never changes a byte of a result.  Zeroed, the cache is empty.
- */
+/* A factored system, used again as long as delta frames leave all that it depends on.  Zeroed, the cache is
+ * empty. */
 enum { MR_DEFORM_PARTS = 10 };
 
 typedef struct mr_deform_cache {
@@ -60,10 +45,8 @@ typedef struct mr_deform_cache {
 	uint64_t part[MR_DEFORM_PARTS]; /* serials of the columns that it depends on */
 } mr_deform_cache;
 
-/*
- * The system on the mesh `rest`, the frame's layer with the positions of column `column`, under the regions
- * that mr_transfer_get finds; those that are the mesh's become columns of the layer too.
- */
+/* The system on `rest`, the frame's layer with the positions of `column`, under the regions that
+ * mr_transfer_get finds; those of the mesh become columns of the layer. */
 mr_status mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mesh *rest,
     const char *column, const mr_deform_opts *opts, mr_deform **deform);
 

@@ -3,10 +3,8 @@
 
 #include "edit/region_transfer.h"
 
-/*
- * What the system depends on, as the reader numbers it: within a key frame and its deltas the same number is
- * the same column.
- */
+/* The columns that the system depends on, by their serials: in a key frame and its deltas the same column has
+ * the same. */
 static void
 identify(const mr_frame *f, const char *layer, const char *rest, uint64_t part[MR_DEFORM_PARTS])
 {

@@ -48,10 +48,8 @@ typedef struct turning {
 	const struct energy *energy;
 } turning;
 
-/*
- * An energy: the local step gives each free vertex a map, and the corners of a face shall be, up to a shift,
- * where these have them, less where the whole has.  place: of faces, what each corner has of the divergence.
- */
+/* An energy: the local step gives each vertex a map, and the corners of a face shall be where these have
+ * them, less the whole's.  place: of faces, each corner's share of the divergence. */
 typedef struct energy {
 	mr_mat3 (*local)(const turning *t, size_t i);
 	mr_body place;
@@ -313,11 +311,8 @@ volume_of(mr_ctx *ctx, const mr_energies *e, const mr_v3 *p)
 	return mr_mesh_volume(ctx, &inside);
 }
 
-/*
- * How much of its volume the patch has to have, by the mean of what the stretches ask for; 0 where that is no
- * body but a sheet or a dent, which has lost most of it before any round.  Rounds
- * leave 42 to 97 % without this; all of it costs twice the stretch of edges that nine tenths cost.
- */
+/* How much of its volume the patch has to have, by the mean stretch; 0 of a sheet or dent, which has lost
+ * most before any round.  Rounds leave 42 to 97 % without this. */
 static double
 volume_to_keep(mr_ctx *ctx, const turning *t, const mr_v3 *p0, const mr_v3 *p)
 {

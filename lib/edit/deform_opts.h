@@ -1,6 +1,4 @@
-/*
- * deform_opts.h -- what is asked of a deformation: how a surface gives way, and where its constraints go.
- */
+/* deform_opts.h -- what is asked of a deformation: how a surface gives way, and where its constraints go. */
 #ifndef MR_EDIT_DEFORM_OPTS_H
 #define MR_EDIT_DEFORM_OPTS_H
 

@@ -1,28 +1,21 @@
-/*
- * deform_parts.h -- components of a surface, for what deforms it: those that touch are made one, those that
- * nothing else holds go along.  Private to this room.
- */
+/* deform_parts.h -- components that touch are deformed as one, those that nothing else holds go along.
+ * Private to this room. */
 #ifndef MR_EDIT_DEFORM_PARTS_H
 #define MR_EDIT_DEFORM_PARTS_H
 
 #include "edit/deform_opts.h"
 
 /*
- * A model of parts that are held by different constraints would come apart.  Triangles between them that no
- * one sees carry the system across: its Laplacian, its weights and its rotations are those of one surface.
- *
- * rest, and a triangle from each vertex that is near another component, to two corners of the face there; so
- * too for each of the ties.  None of parts that are small beside what they are near, unconstrained and not
- * tied, if the ties are known: they have no shape of their own to solve for, and are true in follows (one a
- * vertex, false at first).  Its faces are rest's, or in the arena.
+ * rest, and a triangle from each vertex near another component, and for each of the ties, to two corners of
+ * the face there, so that the system is that of one surface.  None of small unconstrained parts, if the ties
+ * are known: these are true in follows (one a vertex, false at first).  Its faces are rest's, or in the
+ * arena.
  */
 mr_mesh
 mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region, bool *follows);
 
-/*
- * A part that follows moves as one body, by the rigid motion that fits best that of the vertices of the rest
- * nearest to it, so many of them.
- */
+/* A part that follows moves by the rigid motion that fits best that of so many vertices of the rest nearest
+ * to it. */
 enum { MR_ANCHORS = 64 };
 
 typedef struct mr_loose {

@@ -7,11 +7,8 @@
 
 /* Assembly */
 
-/*
- * W, made free of units by the mean.  An area below a hundred-millionth of the mean counts as that much, and
- * one so small for the weights there that a row of L W L has that over its usual size: W stays finite, and
- * tiny holes, whose rows are 1e16 times the others', have a factor.
- */
+/* W, made free of units by the mean.  Areas are at least a hundred-millionth of it, and rows of L W L at most
+ * 1e8 of their usual size: tiny holes then have a factor. */
 static void
 weigh(mr_ctx *ctx, mr_deform_system *s)
 {
@@ -46,10 +43,8 @@ share_negative(const mr_sparse *l, size_t n)
 	return edges ? (double)negative / (double)edges : 0;
 }
 
-/*
- * The unknowns whose boundary conditions multigrid has wrong: within so many rings of the constraints that a
- * few dozen iterations do.  The membrane has none.
- */
+/* The unknowns whose boundary conditions multigrid has wrong: so near to constraints that a few dozen
+ * iterations do. */
 static void
 find_strip(
     mr_ctx *ctx, const mr_deform_system *s, const mr_mesh *rest, const uint32_t *number, mr_hierarchy *h)

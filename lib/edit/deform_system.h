@@ -1,21 +1,15 @@
 /*
- * deform_system.h -- the linear system of a deformation: the k-th power of the Laplacian on a patch.
- *
- * With L the cotangent Laplacian and M the areas, D = -M^-1 L and, for free rows f, (D^k)_ff =
- * (-1)^k M_f^-1 [L (M^-1 L)^(k-1)]_ff: a row scaling of a symmetric matrix, called K.  Multiplying
- * comes before restricting, so K reaches k rings into the constraints.
- * Private to this room.
+ * deform_system.h -- the k-th power of the Laplacian on a patch.  With L the cotangent Laplacian, M the
+ * areas, D = -M^-1 L and free rows f, (D^k)_ff = (-1)^k M_f^-1 [L (M^-1 L)^(k-1)]_ff: a row scaling of a
+ * symmetric matrix, K, which reaches k rings into the constraints.  Private to this room.
  */
 #ifndef MR_EDIT_DEFORM_SYSTEM_H
 #define MR_EDIT_DEFORM_SYSTEM_H
 
 #include "edit/deform_opts.h"
 
-/*
- * The part of a mesh that a local problem sees: chosen vertices and k rings around them.  A patch is a mesh
- * of its own, numbered ring by ring, so what an operator that reaches r rings needs is always a prefix.  In
- * the arena.
- */
+/* A patch: chosen vertices and k rings around them as a mesh of its own, numbered ring by ring, so that what
+ * an operator over r rings needs is a prefix.  In the arena. */
 enum { MR_PATCH_RINGS = 3 };
 
 /* The faces of the patch are those with a corner in ring `rings` - 1 or nearer. */
@@ -27,11 +21,8 @@ typedef struct mr_patch {
 		   1]; /* end[r]: how many vertices are at most r rings away; end[0] the chosen */
 } mr_patch;
 
-/*
- * level[v] becomes the distance of vertex v from the nearest vertex with chosen[v], in edges, over
- * paths that leave the chosen ones at once; `most` + 1 where it is more than `most`.  level: nv, the
- * caller's.
- */
+/* level[v] becomes the distance of v from the nearest chosen vertex, in edges; `most` + 1 beyond `most`.
+ * level: nv, the caller's. */
 void mr_patch_levels(const mr_mesh *m, const bool *chosen, uint8_t most, uint8_t *level);
 
 /* The chosen vertices of m, of whose faces the first `own` count as such, and `rings` rings, 1 to
@@ -78,18 +69,13 @@ mr_field mr_system_field(const mr_deform_system *s, size_t width);
 /* The columns of u on the free vertices, 0 at first, from those on the constraints. */
 mr_status mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f);
 
-/*
- * p has the constraints where they go, of all vertices of the mesh; the free ones follow from p0, where the
- * whole has them.  source: of the differentials less those of the whole, or NULL.
- */
+/* p has the constraints where they go; the free vertices follow from p0, where the whole has them.  source:
+ * of the differentials less those of the whole, or NULL. */
 mr_status mr_system_follow(mr_ctx *ctx, mr_deform_system *s, const mr_affine *whole, const mr_v3 *p0,
     const double *source, mr_v3 *p);
 
-/*
- * Coarser levels of the mesh, an oriented manifold (else MR_EMESH).  number: of each vertex its unknown,
- * below n, or MR_NONE where it is constrained.  level, count: as in mr_hierarchy, in the arena, and so is all
- * that they hold; count is 0 where nothing can be coarsened.
- */
+/* Coarser levels of the mesh, an oriented manifold (else MR_EMESH).  number: of each vertex its unknown below
+ * n, or MR_NONE.  level, count: as in mr_hierarchy, in the arena. */
 mr_status mr_hierarchy_build(
     mr_ctx *ctx, const mr_mesh *m, const uint32_t *number, size_t n, mr_coarser **level, size_t *count);
 

@@ -71,10 +71,8 @@ keep_offset(const encoder *e, size_t i, mr_place at)
 	e->height[i] = 0;
 }
 
-/*
- * A height is sound below the base's radius of curvature: beyond, the normals on the way meet, and any motion
- * of the base tears the heights apart.
- */
+/* A height is sound below the base's radius of curvature: beyond, normals meet, and any motion tears the
+ * heights apart. */
 static bool
 is_sound(const encoder *e, const mr_foot *foot)
 {

@@ -1,20 +1,13 @@
-/*
- * detail.h -- the detail of a mesh over its base surface, as displacements along the base's Phong normals.
- *
- * Contract: decoding what was encoded, on the same base, returns every vertex to
- * within rounding; decoding it on a deformed base carries the detail along.
- */
+/* detail.h -- the detail of a mesh over its base, as displacements along the base's Phong normals: on the
+ * same base they give every vertex back to within rounding, a deformed one carries them along. */
 #ifndef MR_EDIT_DETAIL_H
 #define MR_EDIT_DETAIL_H
 
 #include "edit/phong.h"
 #include "space/source_map.h"
 
-/*
- * The columns mesh.detail_* and base.encoded: on the base as it was encoded vertex i is b + h n + t1 o.x + t2
- * o.y + n o.z, where b is the point bary of the base's triangle `face`, n its Phong normal, t1 and t2 as in
- * mr_phong_frame. Where there is a height the offset is zero, and the reverse.
- */
+/* The columns mesh.detail_* and base.encoded: vertex i is b + h n + t1 o.x + t2 o.y + n o.z, b the point bary
+ * of the triangle `face`, n its Phong normal, t1 and t2 as in mr_phong_frame; h or o is 0. */
 typedef struct mr_detail {
 	size_t n;
 	mr_places at; /* on the base */
@@ -24,31 +17,23 @@ typedef struct mr_detail {
 	const mr_v3 *rest, *rest_normal;
 } mr_detail;
 
-/*
- * Encodes the mesh over the base.  source: checked; NULL where there is none: then the base's point
- * nearest to each vertex takes its place.  MR_ERANGE where the coordinates are so large that a detail is not
- * finite.  d: the arena's.  result: or NULL.
- */
+/* Encodes the mesh over the base.  source: checked, or NULL: the base's nearest points.  MR_ERANGE where a
+ * detail is not finite.  d: the arena's.  result: or NULL. */
 mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *source,
     mr_detail *d, mr_encode_result *result);
 
 /* MR_ERANGE where a face is not one of the base's, a place not within one, or a number not finite. */
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
 
-/*
- * Decodes onto the base, the normals and frames at rest turned as the base has around them: d checked; the
- * detail multiplied by gain.  p: d->n, the caller's.
- */
+/* Decodes d, checked, times gain, onto the base, normals and frames at rest turned as the base has around
+ * them.  p: d->n, the caller's. */
 mr_status mr_decode(mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p);
 
 /* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
 mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);
 
-/*
- * Where base stood when its last pose began, which its posed positions do not tell: the column base.before,
- * or where there is none, as it was encoded.  Notes it down, of a base that a mesh is encoded over, or may
- * be.
- */
+/* Notes where base stood when its last pose began, column base.before, unless as it was encoded; of a base
+ * that a mesh is encoded over, or may be. */
 mr_status mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before);
 
 /* Puts the columns; an offset that was there and is no longer is dropped.  d: of this base, encoded; kept

@@ -1,8 +1,5 @@
-/*
- * Liepa 2003: Filling holes in meshes: each loop is spanned by triangles of least bend and area, which are
- * refined to the edges around; the fairing is Botsch, Kobbelt 2004, section 4, with the surface as
- * constraint.
- */
+/* Liepa 2003: Filling holes in meshes: triangles of least bend and area, refined to the edges around; faired
+ * as in Botsch, Kobbelt 2004, section 4, with the surface as constraint. */
 #include "edit/fill.h"
 
 #include "base/disjoint_sets.h"

@@ -1,15 +1,11 @@
-/*
- * fill.h -- boundary loops of a surface filled with patches that go on smoothly.
- */
+/* fill.h -- boundary loops of a surface filled with patches that go on smoothly. */
 #ifndef MR_EDIT_FILL_H
 #define MR_EDIT_FILL_H
 
 #include "mesh/mesh.h"
 
-/*
- * The patches as a mesh of their own.  Its first `rim` vertices are at the starts of the half-edges he of the
- * surface, loop by loop; all others are new, and follow those of the surface in the filled one, as faces do.
- */
+/* The patches as a mesh.  Its first `rim` vertices are the starts of the half-edges he of the surface, loop
+ * by loop; the others, and the faces, follow those of the surface in the filled one. */
 typedef struct mr_patches {
 	mr_mesh m, all;
 	size_t rim;
@@ -18,9 +14,9 @@ typedef struct mr_patches {
 } mr_patches;
 
 /*
- * Fills boundary loops of m, any mesh: those that the options choose.  By default a loop stays open if a
- * circle of its length has more than a quarter of its component's area.  A loop that no patch fills without
- * crossing the surface or a shorter loop's patch stays open, and is reported.  out: in the arena.
+ * Fills the boundary loops that the options choose, by default those no longer than a circle of a quarter of
+ * their component's area.  What no patch fills without crossing the surface or a shorter loop's patch stays
+ * open, and is reported.  out: in the arena.
  */
 mr_status mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out,
     mr_fill_result *result) MR_WARN_UNUSED;

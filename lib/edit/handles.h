@@ -1,15 +1,11 @@
-/*
- * handles.h -- where handles go: affine maps, their sequences, and scripts of them.
- */
+/* handles.h -- where handles go: affine maps, their sequences, and scripts of them. */
 #ifndef MR_EDIT_HANDLES_H
 #define MR_EDIT_HANDLES_H
 
 #include "mesh/layers.h"
 
-/*
- * Sets the part `what` ("translate", "rotate", "scale", "center") from its text: x,y,z; ax,ay,az,degrees;
- * s or sx,sy,sz; x,y,z.  MR_EUSAGE with a sentence.
- */
+/* Sets the part `what` from its text: "translate" x,y,z; "rotate" ax,ay,az,degrees; "scale" s or sx,sy,sz;
+ * "center" x,y,z.  MR_EUSAGE with a sentence. */
 mr_status mr_pose_set(mr_ctx *ctx, mr_pose *pose, const char *what, const char *text);
 
 /* MR_EUSAGE where a part of the way (0 < share < 1) is not defined: a scale that is not positive. */
@@ -41,16 +37,14 @@ typedef struct mr_handle_rows {
 } mr_handle_rows;
 
 /*
- * The frame's maps and turns (columns handles.transform, handles.turn), at least n of them: those that are
- * absent are the identity, and a map without a turn has the smallest one.  MR_ERANGE where one is not finite,
- * or the columns differ in length.  row: in the arena, to be changed.
+ * The frame's maps and turns (handles.transform, handles.turn), at least n: absent ones are the identity,
+ * absent turns the smallest.  MR_ERANGE where one is not finite, or the columns differ in length.  row: in
+ * the arena.
  */
 mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *row);
 
-/*
- * map[handle] = T map[handle], its turn that logarithm of it which is nearest to the sum of both turns.
- * MR_EMISSING where no vertex is of the handle.  row: at least h->n.
- */
+/* map[handle] = T map[handle], its turn the logarithm nearest to the sum of both turns.  MR_EMISSING where no
+ * vertex is of the handle.  row: at least h->n. */
 mr_status mr_handles_pose(
     mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_handle_rows *row);
 
@@ -98,11 +92,8 @@ size_t mr_motion_length(const mr_motion *m);
 /* Poses frame `number` of the sequence: 0 is at rest, behind the last the last pose stays. */
 mr_status mr_motion_put(mr_ctx *ctx, mr_frame *f, const mr_handles *h, const mr_motion *m, size_t number);
 
-/*
- * p = p0 + sum over handles h of W_h (T_h - I), W_h the n x 4 block of the response; equal to
- * mr_deform_solve with the same maps where that is linear.  The identity gives p0 bit for bit.  response: n
- * rows of 4 handles values.  out: n, the caller's, may be p0.
- */
+/* p = p0 + sum over handles h of W_h (T_h - I), W_h the n x 4 block of the response; the identity gives p0
+ * bit for bit.  response: n rows of 4 handles values.  out: n, the caller's, may be p0. */
 void mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
     const mr_affine *t, mr_v3 *out);
 
@@ -110,10 +101,8 @@ void mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *r
 mr_status
 mr_response_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const double **response, mr_handle_rows *handles);
 
-/*
- * Poses the frame's layer, which is m, by its column `response`, where the frame has handles; both are used
- * up.  MR_EMISSING where there are handles and no response.  m: with the posed positions.
- */
+/* Poses the frame's layer m by its column `response`, if the frame has handles; both are used up.
+ * MR_EMISSING where there are handles and no response.  m: with the posed positions. */
 mr_status mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m);
 
 #endif

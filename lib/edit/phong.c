@@ -10,11 +10,8 @@ mr_phong_face_normal(const mr_phong *s, uint32_t face)
 	return mr_norm2(n) > 0 ? n : mr_vec(0, 0, 1);
 }
 
-/*
- * a without its part along the unit vector n, at unit length; zero where nothing is left.  What rounding
- * leaves along n is taken away again at unit length: a may lie all but along n, and the frame is to be
- * orthonormal all the same.
- */
+/* a without its part along the unit vector n, at unit length, zero where nothing is left; again, as a may lie
+ * all but along n. */
 static mr_v3
 tangent(mr_v3 a, mr_v3 n)
 {
@@ -45,10 +42,8 @@ across(mr_v3 a, mr_v3 n)
 	return mr_axpy(-mr_dot(a, n), n, a);
 }
 
-/*
- * With a, b the edges across the normal, c, d what becomes of it along them, and W the matrix with W a = c
- * and W b = d, the eigenvalues of its symmetric part by trace, determinant and what is not symmetric.
- */
+/* With a, b the edges across the normal, W a = c and W b = d what becomes of it along them: the eigenvalues
+ * of W's symmetric part. */
 double
 mr_phong_curvature(const mr_phong *s, mr_place at)
 {

@@ -1,10 +1,7 @@
 /*
- * phong.h -- a triangle mesh with the continuous normal field of Phong shading.
- *
- * Contract: over a face, b is the point with barycentric coordinates w, N(w) the
- * same combination of the vertex normals, n = N / |N|.  n is continuous over
- * edges and turns with the mesh, so p = b + h n(b) is a displacement that follows
- * whatever the mesh is deformed into (Kobbelt, Vorsatz, Seidel 1999).
+ * phong.h -- a triangle mesh with the continuous normal field of Phong shading: N(w) interpolates the vertex
+ * normals, n = N / |N|, so p = b + h n(b) follows what the mesh is deformed into (Kobbelt, Vorsatz, Seidel
+ * 1999).
  */
 #ifndef MR_EDIT_PHONG_H
 #define MR_EDIT_PHONG_H

@@ -1,8 +1,5 @@
-/*
- * phong_projection.h -- the foot of a point on a Phong surface: the place w with p = b(w) + h n(w).
- *
- * Contract: it only reads, and may be called by several threads at once.
- */
+/* phong_projection.h -- the foot of a point on a Phong surface: the place w with p = b(w) + h n(w).  It only
+ * reads. */
 #ifndef MR_EDIT_PHONG_PROJECTION_H
 #define MR_EDIT_PHONG_PROJECTION_H
 
@@ -20,11 +17,8 @@ typedef struct mr_foot {
 	double height; /* along the Phong normal */
 } mr_foot;
 
-/*
- * Newton's method from the place `start`, over edges into neighbouring faces.
- * True where it found a foot with |height| <= limit, on the near side of the surface's
- * centres of curvature; *foot is written only then.
- */
+/* Newton's method from `start`, over edges into neighbouring faces.  True where it found a foot with |height|
+ * <= limit, this side of the centres of curvature; *foot is written only then. */
 bool mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot);
 
 #endif

@@ -34,11 +34,8 @@ typedef struct scene {
 	uint32_t target;        /* the region that the rule gives */
 } scene;
 
-/*
- * A kind of predicate.  fields: what stands after its colon, a letter each, with commas between: n number,
- * l length or share of the diagonal in %, f fraction, a axis, i whole number, c one from 1, s name, v file of
- * vertices.
- */
+/* A kind of predicate.  fields: what stands after its colon: n number, l length or % of the diagonal, f
+ * fraction, a axis, i whole number, c one from 1, s name, v file of vertices. */
 typedef struct predicate {
 	const char *name, *fields, *form;                      /* form: the fields in words */
 	bool (*holds)(const scene *s, const term *t, mr_v3 p); /* at a place; or */

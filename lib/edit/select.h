@@ -1,10 +1,5 @@
-/*
- * select.h -- regions of vertices, chosen by predicates.
- *
- * A predicate is one word: terms joined by '+', all of which must hold; "not:" turns a
- * term round.  Lengths may be relative to the bounding-box diagonal, as "5%".
- * man/mr-select.1 has them all.
- */
+/* select.h -- regions of vertices, chosen by predicates: terms joined by '+', all of which must hold; "not:"
+ * turns one round.  man/mr-select.1 has them all. */
 #ifndef MR_EDIT_SELECT_H
 #define MR_EDIT_SELECT_H
 
@@ -27,27 +22,24 @@ typedef struct mr_groups {
 } mr_groups;
 
 /*
- * Appends the rule that vertices for which `predicate` holds are of `region`.  `option` is what
- * the rule is called in sentences; both texts are kept by pointer.  MR_EUSAGE where it does not parse;
- * MR_EIO, MR_EFORMAT where a file of vertices cannot be read.
+ * Appends the rule that vertices for which `predicate` holds are of `region`.  `option`: what sentences call
+ * the rule; both texts are kept by pointer.  MR_EUSAGE where it does not parse; MR_EIO, MR_EFORMAT of a file
+ * of vertices.
  */
 mr_status
 mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *option, const char *predicate);
 
-/*
- * Appends the rule that vertices have the regions that the file at `path` gives them (selection_file.h), and
- * others keep theirs.  Refused as the file is.
- */
+/* Appends the rule that vertices have the regions that a file gives them (selection_file.h); others keep
+ * theirs. */
 mr_status mr_selection_add_file(mr_ctx *ctx, mr_selection *s, const char *option, const char *path);
 
 /* The region that the first rule gives. */
 uint32_t mr_selection_begins(const mr_selection *s);
 
 /*
- * Applies the rules in order: later ones win.  region: nv, in and out.  A rule that selects no vertex, a
- * vertex, a group, a part or a column that is not there, one that needs faces where there are none: a
- * sentence. f: that m is a layer of, for its columns, and to keep the sampling of points; NULL: none. groups:
- * MR_NAMINGS of them.  result: or NULL; in the arena.
+ * Applies the rules in order: later ones win.  region: nv, in and out.  Fails where a rule selects nothing or
+ * needs what is not there.  f: that m is a layer of; NULL: none.  groups: MR_NAMINGS of them.  result: or
+ * NULL; in the arena.
  */
 mr_status mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups,
     const mr_selection *s, uint32_t *region, mr_select_result *result);

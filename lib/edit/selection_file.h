@@ -22,16 +22,12 @@ typedef struct mr_selection_file {
 	uint32_t *region; /* of each vertex; MR_NONE: the file gives it none */
 } mr_selection_file;
 
-/*
- * Reads the file, into the arena; the path is kept by pointer.  MR_EIO where it cannot be read, MR_EFORMAT
- * with the line where it is no selection, has a vertex twice, or one that its first line does not count.
- */
+/* Reads the file, into the arena; the path is kept by pointer.  MR_EFORMAT with the line where it is no
+ * selection, has a vertex twice, or one that its first line does not count. */
 mr_status mr_selection_file_read(mr_ctx *ctx, const char *path, mr_selection_file *file) MR_WARN_UNUSED;
 
-/*
- * Gives the vertices in the file their regions; others keep theirs.  region: nv, in and out.  MR_EMESH where
- * the file is of another layer or of other triangles.
- */
+/* Gives the vertices in the file their regions; others keep theirs.  region: nv, in and out.  MR_EMESH where
+ * the file is of another layer or of other triangles. */
 mr_status mr_selection_file_apply(mr_ctx *ctx, const mr_selection_file *file, const mr_mesh *m,
     uint32_t *region, size_t *selected) MR_WARN_UNUSED;
 

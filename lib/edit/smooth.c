@@ -1,7 +1,5 @@
-/*
- * Desbrun, Meyer, Schroeder, Barr 1999: Implicit fairing of irregular meshes using diffusion and curvature
- * flow; Taubin 1995: A signal processing approach to fair surface design.
- */
+/* Desbrun, Meyer, Schroeder, Barr 1999: Implicit fairing of irregular meshes; Taubin 1995: A signal
+ * processing approach to fair surface design. */
 #include "edit/smooth.h"
 
 #include "mesh/edges.h"
@@ -61,11 +59,8 @@ study_vertices(smoothing *s)
 		s->area[v] = fmax(s->area[v], smallest * mean);
 }
 
-/*
- * How long each vertex is smoothed: no longer than a share of its squared thickness, so that no body passes
- * through itself.  Of a rod of radius r the time t leaves 1 / (1 + t / r^2) across, of a ball 1 / (1 + 2 t /
- * r^2): with this share a rod keeps 92 % of its volume and a ball 79 %.
- */
+/* No vertex is smoothed for longer than a share of its squared thickness, so that no body passes through
+ * itself: with this one a rod keeps 92 % of its volume and a ball 79 %. */
 static void
 choose_times(mr_ctx *ctx, smoothing *s, bool plain)
 {
@@ -159,11 +154,8 @@ implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
  * squared edges goes 4 t of it. */
 static const double FURTHEST = 0.6, SHARE = 4;
 
-/*
- * A vertex goes at the pace of its area, or where that would overshoot as far as it may, and then back by mu,
- * 1 / lambda + 1 / mu = pass band, which is the same for all: where one goes at a part of the pace its mu is
- * nearer to -lambda.  With one ratio for all, the band of the slow ones would hold all of their noise.
- */
+/* A vertex goes forth by lambda, at the pace of its area or as far as it may, and back by mu, 1 / lambda + 1
+ * / mu = pass band, which is the same for all: else the band of slow ones would hold their noise. */
 static void
 paces(const smoothing *s, double *forth, double *back)
 {

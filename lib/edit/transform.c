@@ -1,7 +1,5 @@
-/*
- * Frames under affine maps p -> L p + t.  Positions are mapped, normals by L^-T, lengths are scaled; a map
- * that mirrors (det L < 0) turns the faces over, by their first two corners.
- */
+/* Frames under affine maps p -> L p + t: positions are mapped, normals by L^-T, lengths scaled; a map that
+ * mirrors turns the faces over, by their first two corners. */
 #include "edit/transform.h"
 
 #include "base/rotation.h"

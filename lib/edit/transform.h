@@ -1,6 +1,4 @@
-/*
- * transform.h -- affine maps of whole frames: all layers, and what they know of each other, alike.
- */
+/* transform.h -- affine maps of whole frames: all layers, and what they know of each other, alike. */
 #ifndef MR_EDIT_TRANSFORM_H
 #define MR_EDIT_TRANSFORM_H
 
@@ -13,9 +11,8 @@ typedef struct mr_transform {
 } mr_transform;
 
 /*
- * Appends the step `what`: "translate" x,y,z; "rotate" ax,ay,az,degrees, about the origin; "scale" s or
- * sx,sy,sz; "matrix" 12 or 16 numbers, row by row, or a file of them; "up" from:to, two of x, y, z, -x, -y,
- * -z; "center" and "unit", which take nothing: the middle of the bounding box to the origin, and its longest
+ * Appends the step `what`: "translate" x,y,z; "rotate" ax,ay,az,degrees; "scale" s or sx,sy,sz; "matrix" 12
+ * or 16 numbers, or a file of them; "up" from:to, two of x, y, z, -x, -y, -z; "center"; "unit", the longest
  * side to 1, too.  MR_EUSAGE with a sentence; MR_EIO, MR_EFORMAT of a file.
  */
 mr_status mr_transform_add(mr_ctx *ctx, mr_transform *t, const char *what, const char *text) MR_WARN_UNUSED;

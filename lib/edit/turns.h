@@ -1,6 +1,4 @@
-/*
- * turns.h -- how a surface has turned around each of its vertices.
- */
+/* turns.h -- how a surface has turned around each of its vertices. */
 #ifndef MR_EDIT_TURNS_H
 #define MR_EDIT_TURNS_H
 
@@ -13,10 +11,8 @@ typedef struct mr_turn {
 	double sum[10];
 } mr_turn;
 
-/*
- * A smooth field, as the turns of single faces, and the normals of the moved surface, are not.
- * now: where the vertices of rest have gone.  Returns nv, in the arena.
- */
+/* A smooth field, unlike the turns of single faces.  now: where the vertices of rest have gone.  Returns nv,
+ * in the arena. */
 const mr_turn *mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_v3 *now);
 
 /* What becomes of the unit normal n of the surface at rest. */

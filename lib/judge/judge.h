@@ -1,9 +1,5 @@
-/*
- * judge.h -- what became of a surface: the parts of mr_judge (mr.h), which report findings and change
- * nothing.
- *
- * Private to this room.
- */
+/* judge.h -- what became of a surface: the parts of mr_judge (mr.h), which report findings.  Private to this
+ * room. */
 #ifndef MR_JUDGE_JUDGE_H
 #define MR_JUDGE_JUDGE_H
 
@@ -54,11 +50,8 @@ typedef struct mr_harm {
 	uint32_t vertex, far_vertex; /* of the faces that have most of it; MR_NONE without any */
 } mr_harm;
 
-/*
- * Looked for where the surface may touch itself: in the cells of space that hold a face which turned against
- * those around it, or vertices that were far apart.  Where there are none this costs a few looks at each
- * face.
- */
+/* Looked for where the surface may touch itself: in cells of space that hold a face which turned against
+ * those around it, or vertices that were far apart. */
 void mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm);
 
 /* Whether faces f and g stand to each other as they did: where they touch, rounding decides whether they

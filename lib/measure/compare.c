@@ -1,14 +1,8 @@
 /*
- * How far two surfaces, or clouds, are from one another: distances from points of one to the nearest point of
- * the other, exact point to triangle.  Mean and root mean square are integrals over the surface by the
- * midpoint rule on a subdivision of its faces; the greatest distance lies between max, which is attained, and
- * max_bound.
- *
- * The greatest distance by branch and bound.  For a triangle t and a face f of the
- * other surface, the distance to f is convex over t, so no point of t is farther
- * from the surface than max over its corners of their distance to f (as in Tang,
- * Lee, Kim 2009, Interactive Hausdorff distance computation for general polygonal
- * models); and none is farther than the centroid's distance and t's radius.
+ * Distances from points of one surface or cloud to the nearest point of the other.  Means are integrals by
+ * the midpoint rule on a subdivision of the faces.  The greatest distance lies between max, which is
+ * attained, and max_bound, found by branch and bound: no point of a triangle is farther than the farthest of
+ * its corners is from any one face (Tang, Lee, Kim 2009), nor than the centroid's distance and its radius.
  */
 #include "mesh/mesh.h"
 

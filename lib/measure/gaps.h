@@ -1,7 +1,5 @@
-/*
- * gaps.h -- how far points are from their surface, and the surface from the points: parts that it lacks show
- * on the one side, parts that it has too much on the other.
- */
+/* gaps.h -- how far points are from their surface, which shows what it lacks, and the surface from the
+ * points, which shows what it has too much. */
 #ifndef MR_MEASURE_GAPS_H
 #define MR_MEASURE_GAPS_H
 

@@ -1,9 +1,5 @@
-/*
- * measure.h -- the parts that the figures of a mesh and of a cloud (mr.h) are made of.
- *
- * Contract: any mesh with valid indices and finite positions, manifold or not.  A
- * figure that is not defined (an angle where no face has area) is NaN.
- */
+/* measure.h -- the parts of the figures of a mesh and of a cloud (mr.h).  Any mesh with valid indices and
+ * finite positions; what is not defined is NaN. */
 #ifndef MR_MEASURE_H
 #define MR_MEASURE_H
 

@@ -1,9 +1,5 @@
-/*
- * report.h -- what mr-info and mr-compare say, for people and as JSON.
- *
- * Contract: figures that are not defined are "-" or null.  A JSON report is one
- * line.  People get six digits, JSON all seventeen.
- */
+/* report.h -- what mr-info and mr-compare say, for people (six digits) and as JSON (one line, all seventeen).
+ * Figures that are not defined are "-" or null. */
 #ifndef MR_MEASURE_REPORT_H
 #define MR_MEASURE_REPORT_H
 
@@ -18,11 +14,8 @@ typedef struct mr_report_opts {
 	bool skip_intersections;
 } mr_report_opts;
 
-/*
- * Appends the report of a frame.  A layer that cannot be measured is reported as
- * such.  *broken, where not NULL: the first law that the frame breaks, in the arena; NULL where it breaks
- * none.
- */
+/* Appends the report of a frame, of layers that cannot be measured as such.  *broken, where not NULL: the
+ * first law that the frame breaks, in the arena, or NULL. */
 mr_status
 mr_report_frame(mr_ctx *ctx, mr_frame *f, const mr_report_opts *opts, mr_text *text, const char **broken);
 

@@ -1,7 +1,5 @@
-/*
- * attributes.h -- what the columns by convention are, once, and what becomes of columns where rows are made
- * of other rows.
- */
+/* attributes.h -- what the columns by convention are, and what becomes of columns whose rows are made of
+ * other rows. */
 #ifndef MR_MESH_ATTRIBUTES_H
 #define MR_MESH_ATTRIBUTES_H
 
@@ -72,10 +70,8 @@ typedef struct mr_descent {
 /* Whether the layer has columns that go along but for those. */
 bool mr_columns_go_along(const mr_frame *f, const char *layer, const char *const *but);
 
-/*
- * The columns of a layer that go along to a surface made of it: those by convention of kinds from MR_MEAN on,
- * and all that are none by convention. list: *count of them, in the arena, for mr_carried_put.
- */
+/* The columns of a layer that go along to a surface made of it: by convention from MR_MEAN on, and all that
+ * are none by convention.  list: *count of them, in the arena, for mr_carried_put. */
 mr_status mr_columns_descend(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_descent *d,
     mr_carried **list, size_t *count) MR_WARN_UNUSED;
 

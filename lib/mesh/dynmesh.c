@@ -123,10 +123,8 @@ remove_face(mr_dyn *d, uint32_t f)
 	d->free_f = f;
 }
 
-/*
- * Cuts the face of h = a -> b at the new vertex m: it becomes (a, m, c), and face
- * f becomes (m, b, c).  The halves of h are linked by the caller.
- */
+/* Cuts the face of h = a -> b at m: it becomes (a, m, c), and face f (m, b, c).  The caller links the halves
+ * of h. */
 static void
 cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 {

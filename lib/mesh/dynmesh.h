@@ -1,10 +1,7 @@
 /*
- * dynmesh.h -- an oriented manifold triangle mesh under local change: split, collapse, flip.
- *
- * Contract: numbering as in mesh/mesh.h (half-edge 3 f + i).  Faces and vertices
- * that a collapse removes leave holes in the numbering, which splits fill again;
- * mr_dyn_compact closes them.  Curves (boundary and feature edges) are marked on
- * their half-edges and survive every change.
+ * dynmesh.h -- an oriented manifold triangle mesh under local change: split, collapse, flip.  Half-edges are
+ * 3 f + i; collapses leave holes in the numbering, which splits fill and mr_dyn_compact closes.  Curves
+ * (boundary and feature edges) are marked on their half-edges and survive every change.
  */
 #ifndef MR_MESH_DYNMESH_H
 #define MR_MESH_DYNMESH_H
@@ -109,10 +106,8 @@ mr_dyn_folds(const mr_dyn *d, uint32_t h, double cosine)
 	return g != MR_NONE && mr_folds(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3), cosine);
 }
 
-/*
- * Shape of a triangle, height over longest edge: 0.87 for an equilateral one, 0 for a segment.  Below
- * MR_NEEDLE its normal says little and no operation may leave it worse.
- */
+/* Shape of a triangle, height over longest edge: 0.87 of an equilateral one.  Below this its normal says
+ * little, and no operation may leave it worse. */
 static const double MR_NEEDLE = 0.1;
 
 static inline double
@@ -131,9 +126,9 @@ mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
 }
 
 /*
- * Copies m, whose half-edges are topo, into the arena.  Edges whose faces meet at more than
- * `feature` degrees are curves, and so are the boundary and what `seam` marks (3 nf; NULL: nothing).  A curve
- * vertex is a corner where other than two curve edges meet or the curve turns by more than 50 degrees.
+ * Copies m into the arena.  Curves are the boundary, edges whose faces meet at more than `feature` degrees,
+ * and what `seam` marks (3 nf; NULL: nothing); corners where other than two meet or one turns by more than 50
+ * degrees.
  */
 mr_status mr_dyn_build(
     mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam, double feature, mr_dyn *d);
@@ -160,10 +155,8 @@ bool mr_dyn_can_split(const mr_dyn *d, uint32_t h);
  * Only where mr_dyn_can_split. */
 mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
 
-/*
- * True where the start of h can be merged into its end and the mesh stays a manifold of the same topology.
- * mark: workspace of nv zeros, which it leaves zero.
- */
+/* True where the start of h can be merged into its end and the mesh stays a manifold of the same topology.
+ * mark: nv zeros, which it leaves zero. */
 bool mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark);
 
 /* Merges the start of h into its end, which moves to p.  Only where mr_dyn_can_collapse. */
@@ -183,10 +176,8 @@ mr_status mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room);
 /* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 
-/*
- * Renumbers vertices along a space-filling curve, faces by their lowest vertex: neighbours come close in
- * memory.  Only after mr_dyn_compact.
- */
+/* Renumbers vertices along a space-filling curve, faces by their lowest vertex.  Only after mr_dyn_compact.
+ * */
 void mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
 
 /* The mesh as it is, sharing the arrays; its holes, until mr_dyn_compact, are faces whose first corner is

@@ -1,17 +1,12 @@
-/*
- * edges.h -- the edges of any mesh, manifold or not, each with all its half-edges.
- *
- * Contract: faces that have a vertex twice are left out.
- */
+/* edges.h -- the edges of any mesh, manifold or not, each with all its half-edges; without faces that have a
+ * vertex twice. */
 #ifndef MR_MESH_EDGES_H
 #define MR_MESH_EDGES_H
 
 #include "mesh/fold.h"
 
-/*
- * Edge e has the half-edges he[start[e]] to he[start[e + 1]], by index; edges are in the
- * order of their lower, then their higher vertex.
- */
+/* Edge e has the half-edges he[start[e]] to he[start[e + 1]], by index; edges are ordered by their lower,
+ * then higher vertex. */
 typedef struct mr_edges {
 	size_t count;
 	uint32_t *start; /* count + 1 */

@@ -1,12 +1,7 @@
 /*
- * guarded_move.h -- moves of vertices that leave no face bad.
- *
- * All vertices are to move at once.  Round by round the corners of faces that would be bad, by whatever the
- * caller calls so, go half as far, after some rounds they stay: until no face is bad, or those that are have
- * nothing left to take back.  Where every face is good that stays as it is, the move is good.
- *
- * Contract: deterministic for any number of threads.  A vertex is held back a few times and no more, so where
- * faces depend on what is near them the time is linear.
+ * guarded_move.h -- moves of vertices that leave no face bad.  Round by round the corners of faces that would
+ * be bad go half as far, after some rounds they stay.  Where every face is good that stays as it is, the move
+ * is good.  Deterministic for any number of threads; linear time.
  */
 #ifndef MR_MESH_GUARDED_MOVE_H
 #define MR_MESH_GUARDED_MOVE_H

@@ -1,6 +1,5 @@
-/* The layers of a frame in the order in which they were worked on, the last one first: column `latest`, a
- * line each.  From that follows what no surface shows yet, and what a tool takes that shows or writes one
- * layer. */
+/* The layers in the order in which they were worked on, the last one first: column `latest`, a line each.
+ * From that follows what no surface shows yet, and what a tool takes that writes one layer. */
 #include "base/text.h"
 #include "mesh/layers.h"
 

@@ -4,11 +4,8 @@
 #include "base/text.h"
 #include "mesh/normals.h"
 
-/*
- * What goes stale when a layer changes: its own columns (layer "="), another's,
- * or all of a layer (name NULL), beside what refers to its triangles (mr_columns).  `changed` NULL: any
- * layer.
- */
+/* What goes stale when a layer changes, beside what refers to its triangles: its own columns (layer "="),
+ * another's, or all of a layer (name NULL).  `changed` NULL: any layer. */
 static const struct {
 	mr_change change;
 	const char *changed, *layer, *name;

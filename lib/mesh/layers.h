@@ -1,10 +1,5 @@
-/*
- * layers.h -- the layers and columns that tools agree on, once: shapes, what refers to what, frame <-> mesh.
- *
- * Contract: getters check shape, indices, regions and finite coordinates, and
- * fail with a sentence that names layer and column; putters drop what the
- * change makes stale (the table in layers.c).
- */
+/* layers.h -- the layers and columns that tools agree on.  Getters check shape, indices, regions and finite
+ * coordinates; putters drop what the change makes stale (the table in layers.c). */
 #ifndef MR_MESH_LAYERS_H
 #define MR_MESH_LAYERS_H
 
@@ -83,11 +78,8 @@ mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *l
 /* Whether the layer is where its column `encoded` has it, to the bit, or has none. */
 mr_status mr_layer_is_as_encoded(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
 
-/*
- * Notes that the layer was worked on: made, moved, or given what stands over it (column `latest`, of no
- * layer: all layers that were, the last one first).  mr_layer_put_mesh and mr_layer_move note it; a frame's
- * only layer needs no note.
- */
+/* Notes that the layer was made, moved, or given what stands over it (column `latest` of no layer).
+ * mr_layer_put_mesh and mr_layer_move note it; a frame's only layer needs no note. */
 mr_status mr_layer_worked(mr_ctx *ctx, mr_frame *f, const char *layer);
 
 /* A surface shows now what was done to the layer: it is noted no more. */
@@ -102,10 +94,8 @@ mr_status mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer);
 /* The same as a warning, of key frames: for a tool that shows several layers, by their names. */
 mr_status mr_layer_finished_or_warn(mr_ctx *ctx, mr_frame *f);
 
-/*
- * The layer that a tool takes that shows or writes one: `only` where not NULL; else the latest; else mesh,
- * control, points or base.  MR_EMISSING where there is none, or it is not finished.
- */
+/* The layer that a tool takes that shows or writes one: `only`, else the latest, else mesh, control, points
+ * or base.  MR_EMISSING where there is none, or it is not finished. */
 mr_status mr_layer_result(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer);
 
 /* mr_layer_choose, with a warning where that is not the latest, which may be what was meant. */

@@ -9,10 +9,9 @@
 mr_status mr_layer_to_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const char *name) MR_WARN_UNUSED;
 
 /*
- * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes, but for
- * texture coordinates and normals, which become those of corners where they differ.  Faces that lose a corner
- * by it go; those that had a vertex twice before stay.  may: which vertices may join others; NULL: all.
- * joined: how many went.
+ * Joins vertices within eps (0: equal ones): the lowest gives position and attributes; texture coordinates
+ * and normals that differ become those of corners.  Faces that lose a corner go.  may: which may join others;
+ * NULL: all.  joined: how many went.
  */
 mr_status mr_layer_weld(
     mr_ctx *ctx, mr_frame *f, const char *layer, double eps, const bool *may, size_t *joined) MR_WARN_UNUSED;

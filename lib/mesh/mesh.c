@@ -1,8 +1,5 @@
-/*
- * Connectivity of triangle meshes by counting sorts: half-edges (Kettner 1999: Using generic programming for
- * designing a data structure for polyhedral surfaces), the faces and neighbours of vertices; and their
- * normals.
- */
+/* Connectivity of triangle meshes by counting sorts: half-edges (Kettner 1999), the faces and neighbours of
+ * vertices; and their normals. */
 #include "mesh/mesh.h"
 
 #include "base/parallel.h"

@@ -1,11 +1,5 @@
-/*
- * mesh.h -- triangle meshes as flat arrays, and their connectivity.
- *
- * Contract: an mr_mesh is a read-only view of arrays that somebody else keeps
- * (a frame, the arena); algorithms build new arrays.  A mesh that came through
- * mesh/layers.h has valid indices and finite positions; it may be non-manifold,
- * which the functions here report.
- */
+/* mesh.h -- triangle meshes as read-only views of arrays that somebody else keeps, and their connectivity.  A
+ * mesh from mesh/layers.h has valid indices and finite positions; it may be non-manifold. */
 #ifndef MR_MESH_H
 #define MR_MESH_H
 
@@ -13,12 +7,8 @@
 
 #define MR_NONE UINT32_MAX
 
-/*
- * Half-edges.  Half-edge 3 f + i runs from t[f].v[i] to t[f].v[(i + 1) % 3].
- * twin[h] is the opposite one, MR_NONE on the boundary.  out[v] is a half-edge
- * that leaves v: on a boundary vertex the boundary half-edge (the first in
- * counter-clockwise order), MR_NONE for an isolated vertex.
- */
+/* Half-edge 3 f + i runs from t[f].v[i] to t[f].v[(i + 1) % 3]; twin[h] is the opposite one, MR_NONE on the
+ * boundary; out[v] leaves v, on the boundary along it, MR_NONE of an isolated vertex. */
 typedef struct mr_topology {
 	uint32_t *twin; /* 3 nf */
 	uint32_t *out;  /* nv */
@@ -56,10 +46,9 @@ mr_he_ccw(const mr_topology *topo, uint32_t h)
 }
 
 /*
- * The half-edges of an oriented manifold mesh, boundary allowed, in the arena.
- * MR_EMESH with a sentence that names the edge or vertex: an edge with three faces,
- * two neighbours of opposite orientation, a vertex whose faces form two fans, a
- * face with a vertex twice.  Isolated vertices are allowed.
+ * The half-edges of an oriented manifold mesh, boundary and isolated vertices allowed, in the arena.
+ * MR_EMESH names the edge of three faces or of opposite orientations, the vertex of two fans, or the face
+ * with a vertex twice.
  */
 mr_status mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo);
 
@@ -183,10 +172,8 @@ double mr_mesh_tolerance(const mr_mesh *m, double share);
 /* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
 double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
 
-/*
- * Unit vertex normals weighted by angle (Thuermer, Wuethrich 1998); zero where a vertex has no face of
- * positive area.  normal: nv, the caller's.
- */
+/* Unit vertex normals weighted by angle (Thuermer, Wuethrich 1998); zero without a face of positive area.
+ * normal: nv. */
 void mr_vertex_normals(const mr_mesh *m, mr_v3 *normal);
 
 /* For each vertex the sum of the normals of its faces, as long as twice their areas; in the arena. */

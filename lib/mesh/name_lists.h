@@ -1,7 +1,5 @@
-/*
- * name_lists.h -- names of groups, objects and materials: a text of one a line, and a column of the lines'
- * numbers.
- */
+/* name_lists.h -- names of groups, objects and materials: a text of one a line, and a column of the lines'
+ * numbers. */
 #ifndef MR_MESH_NAME_LISTS_H
 #define MR_MESH_NAME_LISTS_H
 

@@ -1,8 +1,7 @@
 /*
- * Ear clipping: G. H. Meisters, Polygons have ears, American Mathematical Monthly 82, 1975; only reflex
- * corners can lie in an ear (D. Eberly, Triangulation by ear clipping).  The polygon is seen along the axis
- * nearest to its Newell normal: coordinates are dropped, not rotated, so that no sign is spoilt by rounding
- * them.
+ * Ear clipping (Meisters 1975, Polygons have ears; Eberly): only reflex corners can lie in an ear.  The
+ * polygon is seen along the axis nearest to its Newell normal: coordinates are dropped, so that rounding
+ * spoils no sign.
  */
 #include "mesh/polygon.h"
 
@@ -137,11 +136,8 @@ clip(polygon *g, size_t i, mr_tri *t)
 		g->reflex[c] = cross(g->q[a], g->q[c], g->q[g->next[c]]) <= 0;
 }
 
-/*
- * Clips ears in turn.  Clipping one can make ears of its two neighbours only, which line up again, at the
- * end, so that the triangles do not all share a corner.  Where none is left the polygon is not simple, or
- * rounding hides an ear: the next corner goes.
- */
+/* Clips ears in turn; the two neighbours of a clipped one line up again.  Where no ear is left, as the
+ * polygon is not simple or rounding hides one, the next corner goes. */
 static void
 clip_ears(polygon *g, mr_tri *t)
 {

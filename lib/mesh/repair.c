@@ -1,9 +1,5 @@
-/*
- * A manifold of any set of triangles, by cutting: A. Gueziec, G. Taubin, F. Lazarus, B. Horn, Cutting and
- * stitching: converting sets of polygons to manifold surfaces, IEEE TVCG 7(2), 2001.  Half-edges are paired
- * where the surface goes on across an edge; the corners of a vertex that pairs connect are one vertex of the
- * result.
- */
+/* A manifold of any set of triangles (Gueziec, Taubin, Lazarus, Horn 2001: Cutting and stitching): half-edges
+ * are paired where the surface goes on; the corners that pairs connect are one vertex. */
 #include "mesh/repair.h"
 
 #include "base/disjoint_sets.h"
@@ -94,11 +90,8 @@ by_angle(const void *a, const void *b)
 	return x->h < y->h ? -1 : x->h > y->h;
 }
 
-/*
- * Faces around an edge by angle, seen along it: the solid lies between a face that runs along the edge and,
- * going round against it, the next, where that one runs the other way; these two are joined.  What is left
- * over gets a border.
- */
+/* Faces around an edge by angle: the solid lies between a face that runs along the edge and, going round
+ * against it, the next, where that runs the other way; these are joined.  What is left over gets a border. */
 static void
 join_wedges(surface *s, const uint32_t *he, size_t n)
 {
@@ -166,10 +159,8 @@ below(const surface *s, uint32_t f, mr_v3 o)
 	return mr_dot(mr_sub(p[v[0]], o), mr_cross(mr_sub(p[v[1]], o), mr_sub(p[v[2]], o)));
 }
 
-/*
- * Six times the volume below the faces, seen from the first one: its sign tells inside from outside of a
- * closed component. `turned`: as the faces will be.
- */
+/* Six times the volume below the faces, as turned, seen from the first one: its sign tells inside from
+ * outside. */
 static double
 volume(const surface *s, const uint32_t *face, size_t n, const bool *turned)
 {
@@ -315,11 +306,8 @@ cut_loose(surface *s, uint32_t f)
 			cut(s, h);
 }
 
-/*
- * Half-edges that are not a pair but would be copies of one edge, since both their ends are still connected
- * around it: the face of one is cut loose, of the one without a pair, or else of the later.  Returns how many
- * were.
- */
+/* Half-edges that would be copies of one edge, both ends being connected around it: the face of the one
+ * without a pair, or else of the later, is cut loose.  Returns how many were. */
 static size_t
 part_copies(surface *s)
 {

@@ -1,17 +1,13 @@
-/*
- * repair.h -- joining equal vertices; making a manifold of any set of triangles.
- */
+/* repair.h -- joining equal vertices; making a manifold of any set of triangles. */
 #ifndef MR_MESH_REPAIR_H
 #define MR_MESH_REPAIR_H
 
 #include "mesh/mesh.h"
 
 /*
- * Joins vertices that are equal (eps 0; -0 equals 0) or within eps: in order of index, a vertex joins the
- * lowest earlier one that stands for itself and is no further away, else stands for itself.
- *
- * map: n new numbers, in order of first use, the caller's; *count: how many.  Time O(n) for eps below the
- * spacing.
+ * Joins vertices that are equal (eps 0; -0 equals 0) or within eps: a vertex joins the lowest earlier one
+ * that stands for itself and is no farther, else stands for itself.  map: n new numbers, in order of first
+ * use; *count: how many.
  */
 void mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count);
 
@@ -30,13 +26,11 @@ typedef struct mr_repair_report {
 } mr_repair_report;
 
 /*
- * An oriented manifold with boundary of the triangles of `m`.  Faces that are degenerate or duplicate go.  At
- * an edge of more than two faces those that bound the same wedge of the solid, by their orientations, stay
- * together; the others are parted.  Components are oriented consistently: as most of their faces were,
- * a closed one where that is less than three quarters outwards.  Fans at a vertex are parted.
- *
- * out: arrays of the arena.  vertex_of, face_of: for each vertex and face of `out`, the one of `m` that it
- * comes from; one turned over keeps its first vertex.  MR_EMESH where no face is left.
+ * An oriented manifold with boundary of the triangles of `m`, without degenerate and duplicate faces.  Edges
+ * of more than two faces are parted by the wedges of the solid, fans at a vertex, too.  Components are
+ * oriented as most of their faces, a closed one where that is less than three quarters outwards.  out: in the
+ * arena.  vertex_of, face_of: of each the one of `m`; a face turned over keeps its first vertex.  MR_EMESH
+ * where no face is left.
  */
 mr_status mr_repair(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out, const uint32_t **vertex_of,
     const uint32_t **face_of, mr_repair_report *report) MR_WARN_UNUSED;

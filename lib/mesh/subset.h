@@ -1,6 +1,4 @@
-/*
- * subset.h -- some of the vertices and faces of a layer, with all that it knows of them.
- */
+/* subset.h -- some of the vertices and faces of a layer, with all that it knows of them. */
 #ifndef MR_MESH_SUBSET_H
 #define MR_MESH_SUBSET_H
 
@@ -13,18 +11,13 @@ typedef struct mr_subset {
 	const uint32_t *number; /* of each kept vertex of the whole: its place in `vertex` */
 } mr_subset;
 
-/*
- * The vertices that are marked in keep (m->nv), and the faces that have these for corners.  A polygon is kept
- * whole or not at all, and a vertex goes where it had faces and has none left.  m: that layer of f, or its
- * points alone.  In the arena.
- */
+/* The vertices marked in keep (m->nv), and the faces that have these for corners; polygons whole or not at
+ * all, and no vertex that has lost all its faces.  m: that layer of f, or its points alone.  In the arena. */
 mr_status
 mr_subset_find(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *keep, mr_subset *s) MR_WARN_UNUSED;
 
-/*
- * The layer becomes its subset: every column of vertices and faces keeps the rows that are left, and all
- * others stay.  What the layer's sampling was is dropped, and what refers to its rows from elsewhere.
- */
+/* The layer becomes its subset: columns keep the rows that are left.  Its sampling is dropped, and what
+ * refers to its rows from elsewhere. */
 mr_status mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s) MR_WARN_UNUSED;
 
 /* Every column of the layer's vertices (element v) or faces (f) gets the rows of[0 .. n), as they are. */

@@ -1,20 +1,11 @@
-/*
- * validate.h -- what must hold of the layers of a frame.
- *
- * Contract: every column decodes, has the shape that convention gives it, as many
- * rows as its layer, and finite numbers; indices and regions are in range,
- * barycentric coordinates are of a place within a face, and what refers to another
- * layer finds it.
- */
+/* validate.h -- what must hold of the layers of a frame: columns decode, have the shape of convention, as
+ * many rows as their layer, finite numbers, indices and places in range. */
 #ifndef MR_MESH_VALIDATE_H
 #define MR_MESH_VALIDATE_H
 
 #include "mesh/layers.h"
 
-/*
- * Calls broken(user, sentence) for each law that the frame breaks.  MR_OK whatever they are;
- * only want of memory fails.
- */
+/* Calls broken(user, sentence) for each law that the frame breaks. */
 void mr_check_frame(mr_ctx *ctx, mr_frame *f, void (*broken)(void *user, const char *sentence), void *user);
 
 /* MR_ERANGE where a number of a decoded column by convention is not finite, but for a corner without texture

@@ -1,9 +1,5 @@
-/*
- * field.h -- how far values over a surface are from what each of its faces says of them (Hoppe 1999, with the
- * best values for a place put in).
- *
- * Contract: as of quadrics, of the offset from an origin that the holder knows.
- */
+/* field.h -- how far values over a surface are from what each of its faces says of them (Hoppe 1999, with the
+ * best values put in).  Of the offset from an origin that the holder knows. */
 #ifndef MR_OP_FIELD_H
 #define MR_OP_FIELD_H
 

@@ -1,9 +1,5 @@
-/*
- * quadric.h -- sums of squared distances to planes (Garland, Heckbert 1997).
- *
- * Contract: a quadric is a function of the offset x from an origin that its holder knows, so its numbers are
- * as small as the neighbourhood it stands for, and rounding is relative to that and not to the model.
- */
+/* quadric.h -- sums of squared distances to planes (Garland, Heckbert 1997), as functions of the offset from
+ * an origin that the holder knows: rounding is relative to the neighbourhood. */
 #ifndef MR_OP_QUADRIC_H
 #define MR_OP_QUADRIC_H
 

@@ -1,9 +1,5 @@
-/*
- * camera.h -- from space to the pixels of a panel.
- *
- * Contract: look (directions), box and aim (where the eye stands), cover and fit (where in
- * the panel the picture lies), in this order; box and cover may be called for several models.
- */
+/* camera.h -- from space to the pixels of a panel: look, box, aim, cover and fit, in this order; box and
+ * cover may be called for several models. */
 #ifndef MR_RENDER_CAMERA_H
 #define MR_RENDER_CAMERA_H
 
@@ -17,10 +13,8 @@ typedef struct mr_camera {
 	double x, y;             /* pixel of the centre, from the panel's upper left corner, y downwards */
 } mr_camera;
 
-/*
- * Where the eye stands in a view called front, back, left, right, top, bottom, iso or quarter, of a model
- * that stands upright on the axis `up` (1 along x, y or z).  False: no view is called that.
- */
+/* Where the eye stands in the view called front, back, left, right, top, bottom, iso or quarter, of a model
+ * that stands upright on the axis `up`.  False: there is no such view. */
 bool mr_camera_view(const char *name, mr_v3 up, mr_v3 *from);
 
 /* A point as the camera sees it: pixels, the factor by which perspective enlarges it, and the height towards
@@ -29,10 +23,8 @@ typedef struct mr_seen {
 	double x, y, enlarged, z;
 } mr_seen;
 
-/*
- * A camera whose eye stands in the direction `from`, with `up` upwards in the picture (any
- * direction at right angles where the two are parallel).  MR_EUSAGE where `from` or `up` is zero.
- */
+/* A camera whose eye stands in the direction `from`, with `up` upwards (any, where they are parallel).
+ * MR_EUSAGE where one is zero. */
 mr_status mr_camera_look(mr_ctx *ctx, mr_v3 from, mr_v3 up, mr_camera *c);
 
 /* Grows the box of the mesh's places along the camera's axes: x right, y up, z towards the eye. */

@@ -1,8 +1,4 @@
-/*
- * canvas.h -- an image of sRGB pixels, and flat drawing on it: rectangles and text.
- *
- * Contract: drawing is clipped to the image.
- */
+/* canvas.h -- an image of sRGB pixels, and rectangles and text on it, clipped. */
 #ifndef MR_RENDER_CANVAS_H
 #define MR_RENDER_CANVAS_H
 
@@ -24,10 +20,8 @@ void mr_image_fill(mr_image *image, double x, double y, double w, double h, mr_r
 /* Advance of a letter, and the height of a line, in units of text. */
 enum { MR_TEXT_ADVANCE = 6, MR_TEXT_LINE = 10 };
 
-/*
- * Writes ASCII (other bytes are boxes) from (x, y), the upper left corner of the first letter;
- * capitals are 7 units high, letters 6 apart, a unit is `unit` pixels.
- */
+/* Writes ASCII (other bytes are boxes) from its upper left corner (x, y); capitals are 7 units of `unit`
+ * pixels high, letters 6 apart. */
 void mr_image_text(mr_image *image, double x, double y, double unit, mr_rgb color, const char *text);
 
 /* The rows of a letter, from the top, bit 4 the leftmost of five columns; rows 7 and 8 hang below the line.

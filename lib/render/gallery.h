@@ -1,10 +1,5 @@
-/*
- * gallery.h -- pictures of frames: panels side by side with labels and legends, one camera for what is
- * compared.
- *
- * Contract: frames are collected, then drawn.  A shot is what shares a camera and a
- * scale of colours: a key frame with its deltas, or more where the caller likes.
- */
+/* gallery.h -- pictures of frames: panels side by side with labels and legends.  A shot is what shares a
+ * camera and a scale of colours: a key frame with its deltas, or more where the caller likes. */
 #ifndef MR_RENDER_GALLERY_H
 #define MR_RENDER_GALLERY_H
 
@@ -34,10 +29,8 @@ typedef struct mr_gallery {
 	size_t panels, panel_room, frames, frame_room;
 } mr_gallery;
 
-/*
- * Adds a frame, copying what it needs into the arena `keep`.  MR_EMISSING where a layer or the column is
- * nowhere in the frame.
- */
+/* Adds a frame, copying what it needs into the arena `keep`.  MR_EMISSING where a layer or the column is
+ * missing. */
 mr_status
 mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts);
 

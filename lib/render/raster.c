@@ -1,7 +1,5 @@
-/*
- * Which face or point is seen in each sample: edge functions (Pineda 1988) in whole
- * steps, a depth buffer, and bands of rows as the units of work.
- */
+/* Which face or point is seen in each sample: edge functions (Pineda 1988) in whole steps, a depth buffer,
+ * bands of rows. */
 #include "render/raster_parts.h"
 
 #include "base/parallel.h"

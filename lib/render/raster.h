@@ -1,9 +1,5 @@
-/*
- * raster.h -- a shaded picture of a surface or of a cloud of points.
- *
- * Contract: the picture is the same for every number of threads: pixels are shaded
- * by rows, and where two faces are equally near the one of lower index is seen.
- */
+/* raster.h -- a shaded picture of a surface or of a cloud, the same for every number of threads: of two
+ * equally near faces the lower is seen. */
 #ifndef MR_RENDER_RASTER_H
 #define MR_RENDER_RASTER_H
 
@@ -24,10 +20,7 @@ typedef struct mr_subject {
 	bool nearest; /* colours are kinds: each place has its nearest vertex's, no mixture */
 } mr_subject;
 
-/*
- * Draws the subject over what the image shows; wire: with its edges.  Workspace: about 30 bytes a pixel,
- * 50 a vertex and 20 a face, released.
- */
+/* Draws the subject over what the image shows; wire: with its edges. */
 void mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image);
 
 #endif

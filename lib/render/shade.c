@@ -1,7 +1,5 @@
-/*
- * Colours of what is seen: three lights and a bright sky over a matte surface.
- * Light is computed in linear values, and becomes sRGB in the end.
- */
+/* Colours of what is seen: three lights and a bright sky over a matte surface, in linear values that become
+ * sRGB. */
 #include "render/raster_parts.h"
 
 #include "base/parallel.h"

@@ -1,9 +1,5 @@
-/*
- * texture.h -- pictures on surfaces, each with smaller copies of itself for where it is seen from afar
- * (Williams 1983, "Pyramidal Parametrics").
- *
- * Contract: u runs to the right, v upwards, and the picture repeats beyond 0 to 1.
- */
+/* texture.h -- pictures on surfaces, with smaller copies for where they are seen from afar (Williams 1983).
+ * u runs to the right, v upwards; the picture repeats beyond 0 to 1. */
 #ifndef MR_RENDER_TEXTURE_H
 #define MR_RENDER_TEXTURE_H
 

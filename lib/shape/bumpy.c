@@ -1,7 +1,5 @@
-/*
- * The bumpy creature: a smooth implicit body around a skeleton, polygonised and relaxed
- * until its edges are about equal, subdivided, under a skin of scales.
- */
+/* The bumpy creature: a smooth implicit body around a skeleton, polygonised and relaxed, subdivided, under a
+ * skin of scales. */
 #include "shape/shape.h"
 
 #include "base/parallel.h"

@@ -136,10 +136,8 @@ torus_point(double u, double v)
 
 static const double KNOT_RADIUS = 0.45, KNOT_TUBE = 0.2, KNOT_LENGTH = 15.337059286565475; /* of the curve */
 
-/*
- * The curve runs on a torus, twice around it and three times around its tube; the
- * torus's normal is at right angles to it, and closes up with it.
- */
+/* The curve runs on a torus, twice around it and three times around its tube; the torus's normal is at right
+ * angles to it. */
 static mr_v3
 knot_point(double u, double v)
 {

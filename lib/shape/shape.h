@@ -31,10 +31,8 @@ mr_status mr_bumpy(mr_ctx *ctx, size_t n, mr_mesh *m);
  * plane, and around the upright axis of all else.  corners: 6 nf, in the arena. */
 void mr_solid_texcoords(mr_ctx *ctx, mr_solid solid, const mr_mesh *m, double **corners);
 
-/*
- * `count` points drawn uniformly by area with the seed, in the arena, each with the
- * unit normal of its face.  MR_EMESH where the surface has no area.
- */
+/* `count` points drawn uniformly by area with the seed, in the arena, each with the unit normal of its face.
+ * MR_EMESH where the surface has no area. */
 mr_status mr_surface_sample(
     mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr_v3 **points, mr_v3 **normals);
 

@@ -1,8 +1,4 @@
-/*
- * cache.h -- what the tools keep from frame to frame.
- *
- * Private to this room.
- */
+/* cache.h -- what the tools keep from frame to frame.  Private to this room. */
 #ifndef MR_TOOL_CACHE_H
 #define MR_TOOL_CACHE_H
 

@@ -1,6 +1,4 @@
-/*
- * mend.h -- surfaces that have come apart.
- */
+/* mend.h -- surfaces that have come apart. */
 #ifndef MR_TOOL_MEND_H
 #define MR_TOOL_MEND_H
 

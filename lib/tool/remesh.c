@@ -1,6 +1,5 @@
 /* mr-remesh: a base, or a mesh, to an isotropic base; its places on the mesh are composed with those there
- * are.
- */
+ * are. */
 #include "remesh/remesh.h"
 
 #include "base/options.h"

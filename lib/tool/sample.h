@@ -1,6 +1,4 @@
-/*
- * sample.h -- what mr_sample_frame will look for heights in.
- */
+/* sample.h -- what mr_sample_frame will look for heights in. */
 #ifndef MR_TOOL_SAMPLE_H
 #define MR_TOOL_SAMPLE_H
 

@@ -1,6 +1,4 @@
-/*
- * select.h -- mr_select_frame and mr_crop_frame for rules that were parsed before, as of a command line.
- */
+/* select.h -- mr_select_frame and mr_crop_frame for rules that were parsed before, as of a command line. */
 #ifndef MR_TOOL_SELECT_H
 #define MR_TOOL_SELECT_H
 

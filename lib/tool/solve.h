@@ -1,6 +1,4 @@
-/*
- * solve.h -- the options of mr_solve_frame, checked before there is a frame.
- */
+/* solve.h -- the options of mr_solve_frame, checked before there is a frame. */
 #ifndef MR_TOOL_SOLVE_H
 #define MR_TOOL_SOLVE_H
 
