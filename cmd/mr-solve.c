@@ -8,7 +8,7 @@ static double megabytes;
 static const cmd_opt table[] = {
 	{ 'k', "order", CMD_COUNT, &opts.order, 1, 3, "K",
 	    "1 membrane, 2 thin plate, 3 minimal variation of curvature", NULL },
-	{ 's', "solver", CMD_CHOICE, &opts.solver, 0, 0, "auto|cholesky|lu|cg|multigrid|vcycle",
+	{ 's', "solver", CMD_CHOICE, &opts.solver, 0, 0, "auto|cholesky|cholmod|lu|cg|multigrid|vcycle",
 	    "auto: cholesky, lu for --unsymmetric, multigrid where the factor is too large", NULL },
 	{ 0, "areas", CMD_CHOICE, &opts.areas, 0, 0, "voronoi|mean",
 	    "each vertex its own area, or all the mean", NULL },

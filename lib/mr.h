@@ -452,7 +452,7 @@ MR_API mr_status mr_pose_frame(
 
 typedef enum mr_solver_choice {
 	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
-	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
+	MR_SOLVER_CHOLESKY, MR_SOLVER_CHOLMOD, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
 } mr_solver_choice;
 
 typedef enum mr_areas {

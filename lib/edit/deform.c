@@ -36,7 +36,7 @@ count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	d->handled = d->nv - free - d->fixed;
 	while (d->lowest == MR_REGION_FREE || (d->lowest < d->regions.n && !d->regions.count[d->lowest]))
 		d->lowest++;
-	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
+	if (d->opts.unsymmetric && mr_solver_is_symmetric(d->opts.solver.kind))
 		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
 	if (free == 0 && d->handled == 0)
 		return mr_advise(ctx, MR_SELECT_FREE,

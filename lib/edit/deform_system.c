@@ -86,7 +86,7 @@ build_hierarchy(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest)
 static mr_status
 assemble(mr_ctx *ctx, mr_deform_system *s)
 {
-	bool lower = s->opts.solver.kind == MR_CHOLESKY;
+	bool lower = mr_solver_is_symmetric(s->opts.solver.kind);
 	size_t n = s->patch.end[0];
 
 	MR_TRY(mr_sparse_power(ctx, &s->l, s->w, s->opts.order, n, lower, &s->a));
@@ -123,7 +123,7 @@ open_solver(mr_ctx *ctx, mr_deform_system *s)
 	size_t n = s->patch.end[0];
 	int *part = NULL;
 
-	if (s->opts.solver.kind == MR_CHOLESKY) {
+	if (mr_solver_is_symmetric(s->opts.solver.kind)) {
 		part = MR_NEW(ctx, n, int);
 		mr_dissect(ctx, &s->l, s->patch.mesh.p, n, s->opts.order, part);
 		system.part = part;

@@ -2,7 +2,7 @@
 #include "solve/solver_type.h"
 
 /* The order of mr_solver_kind. */
-static const mr_solver_type *const types[] = { &mr_cholesky_type, &mr_lu_type, &mr_cg_type,
+static const mr_solver_type *const types[] = { &mr_cholesky_type, &mr_cholmod_type, &mr_lu_type, &mr_cg_type,
 	&mr_multigrid_type, &mr_vcycle_type };
 
 struct mr_solver {

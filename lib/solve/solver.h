@@ -12,11 +12,19 @@
 
 typedef enum mr_solver_kind {
 	MR_CHOLESKY,  /* A symmetric positive definite, only its lower triangle given */
+	MR_CHOLMOD,   /* the same by CHOLMOD's supernodal factor */
 	MR_LU,        /* A any square matrix, all of it given, as for those below */
 	MR_CG,        /* A symmetric positive definite; with incomplete factors */
 	MR_MULTIGRID, /* A = L (W L)^(k-1): conjugate gradients with k V-cycles on L */
 	MR_VCYCLE     /* A = L (W L)^(k-1): V-cycles on A itself, as the paper has it */
 } mr_solver_kind;
+
+/* True for solvers that take the lower triangle of A alone. */
+static inline bool
+mr_solver_is_symmetric(mr_solver_kind kind)
+{
+	return kind <= MR_CHOLMOD;
+}
 
 /* True for solvers that approach the solution until a tolerance is met. */
 static inline bool

@@ -19,7 +19,8 @@ typedef struct mr_solver_type {
 	void (*drop)(void *data);
 } mr_solver_type;
 
-extern const mr_solver_type mr_cholesky_type, mr_lu_type, mr_cg_type, mr_multigrid_type, mr_vcycle_type;
+extern const mr_solver_type mr_cholesky_type, mr_cholmod_type, mr_lu_type, mr_cg_type, mr_multigrid_type,
+    mr_vcycle_type;
 
 /*
  * Keeps the libraries below the solvers to one thread.  CHOLMOD 3 starts a team of four OpenMP threads in

@@ -12,33 +12,92 @@ enum { WIDTH = 4 };
 
 struct mr_supernodal {
 	mr_panels l;
-	wide *x;     /* n rows */
-	wide *panel; /* the rows of a panel */
+	int *to;     /* where what a row is given goes in x: beyond n, where the row is outside of the panel's
+	                subtree */
+	int *root;   /* of the subtrees, which are worked on in parallel */
+	int *beyond; /* of each where what is outside begins in x */
+	size_t roots, most;
+	uint8_t *top; /* of each panel: it is in no subtree */
+	wide *x;      /* n rows, then what the subtrees give to those outside of them */
+	wide *panel;  /* the rows of a panel, of each subtree and of the top */
 };
 
-static size_t
-rows_of(const mr_panels *l, size_t s)
+size_t
+mr_panel_subtrees(
+    mr_ctx *ctx, const mr_panels *l, const double *weight, double share, uint8_t *top, int *root)
 {
-	return (size_t)(l->row_at[s + 1] - l->row_at[s]);
+	MR_SCOPE(ctx);
+	double *below = MR_NEW(ctx, l->count, double), all = 0;
+	size_t roots = 0;
+
+	memcpy(below, weight, l->count * sizeof *below);
+	for (size_t s = 0; s < l->count; s++) {
+		all += weight[s];
+		if (l->parent[s] != -1)
+			below[l->parent[s]] += below[s];
+	}
+	for (size_t s = l->count; s-- > 0;) {
+		bool within = l->parent[s] != -1 && !top[l->parent[s]];
+		top[s] = !within && below[s] > share * all;
+		if (!within && !top[s])
+			root[roots++] = (int)s;
+	}
+	return roots;
 }
 
-static size_t
-columns_of(const mr_panels *l, size_t s)
+/* The rows of the panels of a subtree that are outside of it are some of its root's. */
+static void
+send_outside(mr_supernodal *s, size_t root, int beyond)
 {
-	return (size_t)(l->first[s + 1] - l->first[s]);
+	const mr_panels *l = &s->l;
+	const int *own = l->row + l->row_at[root] + mr_panel_columns(l, root);
+
+	for (size_t p = (size_t)l->first_below[root]; p <= root; p++)
+		for (size_t k = l->row_at[p], at = 0; k < l->row_at[p + 1]; k++) {
+			if (l->row[k] < l->first[root + 1])
+				continue;
+			while (own[at] < l->row[k])
+				at++;
+			s->to[k] = beyond + (int)at;
+		}
+}
+
+static void
+find_subtrees(mr_ctx *ctx, mr_supernodal *s)
+{
+	static const double SHARE = 1.0 / 16;
+	const mr_panels *l = &s->l;
+	double *weight;
+
+	s->top = MR_NEW(ctx, l->count, uint8_t);
+	s->root = MR_NEW(ctx, l->count, int);
+	s->beyond = MR_NEW(ctx, l->count + 1, int);
+	MR_SCOPE(ctx);
+	weight = MR_NEW(ctx, l->count, double);
+	for (size_t p = 0; p < l->count; p++)
+		weight[p] = (double)(l->value_at[p + 1] - l->value_at[p]);
+	s->roots = mr_panel_subtrees(ctx, l, weight, SHARE, s->top, s->root);
+	s->beyond[0] = (int)l->n;
+	for (size_t i = 0; i < s->roots; i++) {
+		size_t root = (size_t)s->root[i];
+		send_outside(s, root, s->beyond[i]);
+		s->beyond[i + 1] = s->beyond[i] + (int)(mr_panel_rows(l, root) - mr_panel_columns(l, root));
+	}
 }
 
 mr_supernodal *
 mr_supernodal_new(mr_ctx *ctx, const mr_panels *factor)
 {
 	mr_supernodal *s = MR_NEW_ZERO(ctx, 1, mr_supernodal);
-	size_t most = 0;
 
 	s->l = *factor;
 	for (size_t p = 0; p < factor->count; p++)
-		most = rows_of(factor, p) > most ? rows_of(factor, p) : most;
-	s->x = MR_NEW(ctx, factor->n, wide);
-	s->panel = MR_NEW(ctx, most, wide);
+		s->most = mr_panel_rows(factor, p) > s->most ? mr_panel_rows(factor, p) : s->most;
+	s->to = MR_NEW(ctx, factor->row_at[factor->count], int);
+	memcpy(s->to, factor->row, factor->row_at[factor->count] * sizeof *s->to);
+	find_subtrees(ctx, s);
+	s->x = MR_NEW(ctx, (size_t)s->beyond[s->roots], wide);
+	s->panel = MR_NEW(ctx, (s->roots + 1) * s->most, wide);
 	return s;
 }
 
@@ -143,28 +202,28 @@ backward(const double *l, size_t nr, size_t nc, wide *z)
 /* Panels in x */
 
 MR_VECTORS static void
-forward_panel(mr_supernodal *s, size_t p)
+forward_panel(const mr_supernodal *s, size_t p, wide *z)
 {
 	const mr_panels *l = &s->l;
-	size_t nr = rows_of(l, p), nc = columns_of(l, p);
-	const int *row = l->row + l->row_at[p];
-	wide *x = s->x + l->first[p], *z = s->panel;
+	size_t nr = mr_panel_rows(l, p), nc = mr_panel_columns(l, p);
+	const int *to = s->to + l->row_at[p];
+	wide *x = s->x + l->first[p];
 
 	memcpy(z, x, nc * sizeof *z);
 	memset(z + nc, 0, (nr - nc) * sizeof *z);
 	forward(l->value + l->value_at[p], nr, nc, z);
 	memcpy(x, z, nc * sizeof *z);
 	for (size_t i = nc; i < nr; i++)
-		s->x[row[i]] += z[i];
+		s->x[to[i]] += z[i];
 }
 
 MR_VECTORS static void
-backward_panel(mr_supernodal *s, size_t p)
+backward_panel(const mr_supernodal *s, size_t p, wide *z)
 {
 	const mr_panels *l = &s->l;
-	size_t nr = rows_of(l, p), nc = columns_of(l, p);
+	size_t nr = mr_panel_rows(l, p), nc = mr_panel_columns(l, p);
 	const int *row = l->row + l->row_at[p];
-	wide *x = s->x + l->first[p], *z = s->panel;
+	wide *x = s->x + l->first[p];
 
 	memcpy(z, x, nc * sizeof *z);
 	for (size_t i = nc; i < nr; i++)
@@ -209,16 +268,56 @@ write_rows(void *arg, size_t begin, size_t end)
 }
 
 static void
+forward_subtrees(void *arg, size_t begin, size_t end)
+{
+	const mr_supernodal *s = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		memset(s->x + s->beyond[i], 0, (size_t)(s->beyond[i + 1] - s->beyond[i]) * sizeof *s->x);
+		for (int p = s->l.first_below[s->root[i]]; p <= s->root[i]; p++)
+			forward_panel(s, (size_t)p, s->panel + i * s->most);
+	}
+}
+
+static void
+backward_subtrees(void *arg, size_t begin, size_t end)
+{
+	const mr_supernodal *s = arg;
+
+	for (size_t i = begin; i < end; i++)
+		for (int p = s->root[i]; p >= s->l.first_below[s->root[i]]; p--)
+			backward_panel(s, (size_t)p, s->panel + i * s->most);
+}
+
+/* What the subtrees give to the rows outside of them, in their order. */
+static void
+receive(const mr_supernodal *s)
+{
+	for (size_t i = 0; i < s->roots; i++) {
+		size_t root = (size_t)s->root[i];
+		const int *row = s->l.row + s->l.row_at[root] + mr_panel_columns(&s->l, root);
+		for (int k = s->beyond[i]; k < s->beyond[i + 1]; k++)
+			s->x[row[k - s->beyond[i]]] += s->x[k];
+	}
+}
+
+static void
 solve_columns(const mr_ctx *ctx, mr_supernodal *s, double *b, size_t columns)
 {
 	enum { GRAIN = 65536 }; /* less takes no longer than to wake a thread */
 	exchange e = { s, b, columns };
+	wide *panel = s->panel + s->roots * s->most;
 
 	mr_parallel(ctx, s->l.n, GRAIN, read_rows, &e);
+	mr_parallel(ctx, s->roots, 1, forward_subtrees, s);
+	receive(s);
 	for (size_t p = 0; p < s->l.count; p++)
-		forward_panel(s, p);
+		if (s->top[p])
+			forward_panel(s, p, panel);
 	for (size_t p = s->l.count; p-- > 0;)
-		backward_panel(s, p);
+		if (s->top[p])
+			backward_panel(s, p, panel);
+	mr_parallel(ctx, s->roots, 1, backward_subtrees, s);
 	mr_parallel(ctx, s->l.n, GRAIN, write_rows, &e);
 }
 

@@ -11,15 +11,37 @@
 #include "base/ctx.h"
 
 /*
- * L, n x n.  Panel s has the columns first[s] to first[s + 1] - 1 and the rows row[row_at[s]] to row[row_at[s
+ * L, n x n, in postorder: the descendants of panel s are first_below[s] to s - 1.  Panel s has the columns
+ * first[s] to first[s + 1] - 1 and the rows row[row_at[s]] to row[row_at[s
  * + 1] - 1], ascending from its own columns on; its values stand column by column from value[value_at[s]].
  */
 typedef struct mr_panels {
 	size_t n, count;
-	const int *first, *row_at, *value_at, *row;
+	const int *first, *row;
+	const int *parent, *first_below; /* of each panel; -1: it is a root */
+	const size_t *row_at, *value_at;
 	const double *value;
 	const int *permutation; /* row i of L is that number of the system */
 } mr_panels;
+
+static inline size_t
+mr_panel_rows(const mr_panels *l, size_t s)
+{
+	return l->row_at[s + 1] - l->row_at[s];
+}
+
+static inline size_t
+mr_panel_columns(const mr_panels *l, size_t s)
+{
+	return (size_t)(l->first[s + 1] - l->first[s]);
+}
+
+/*
+ * The largest subtrees whose weights are at most a share of all, the last first; their number.
+ * top: of each panel, whether it is in none.  root: count, the caller's, as top.
+ */
+size_t mr_panel_subtrees(
+    mr_ctx *ctx, const mr_panels *l, const double *weight, double share, uint8_t *top, int *root);
 
 typedef struct mr_supernodal mr_supernodal;
 

@@ -55,7 +55,8 @@ apply(const mr_sparse *a, const double *x, double *y)
 static void
 check_solver(mr_solver_kind kind, double drift, const int *part)
 {
-	mr_sparse full = grid_matrix(0.1, drift, false), given = grid_matrix(0.1, drift, kind == MR_CHOLESKY);
+	mr_sparse full = grid_matrix(0.1, drift, false),
+		  given = grid_matrix(0.1, drift, mr_solver_is_symmetric(kind));
 	double *x = MR_NEW(&ctx, 3 * N, double), *b = MR_NEW(&ctx, 3 * N, double);
 	mr_random r = { 1 };
 	mr_solver *s = NULL;
@@ -86,9 +87,11 @@ test_cholesky(void **state)
 
 	(void)state;
 	check_solver(MR_CHOLESKY, 0, NULL);
+	check_solver(MR_CHOLMOD, 0, NULL);
 	for (int i = 0; i < N; i++) /* the middle column last */
 		part[i] = i % SIDE < SIDE / 2 ? 0 : i % SIDE > SIDE / 2 ? 1 : 2;
 	check_solver(MR_CHOLESKY, 0, part);
+	check_solver(MR_CHOLMOD, 0, part);
 }
 
 /* A factor of many subtrees, more right-hand sides than are solved together, and any number of threads. */
@@ -338,7 +341,7 @@ test_memory(void **state)
 {
 	(void)state;
 	for (int kind = MR_CHOLESKY; kind <= MR_LU; kind++) {
-		mr_sparse a = grid_matrix(0.1, 0, kind == MR_CHOLESKY);
+		mr_sparse a = grid_matrix(0.1, 0, mr_solver_is_symmetric((mr_solver_kind)kind));
 		mr_solver_opts opts = MR_SOLVER_DEFAULTS;
 		opts.kind = (mr_solver_kind)kind;
 		opts.memory = 1000;

@@ -41,8 +41,9 @@ static factor
 random_factor(mr_random *r, size_t count, size_t widest, double share)
 {
 	size_t *parent = random_tree(r, count), rows = 0, values = 0, n;
-	int *first = MR_NEW(&ctx, count + 1, int), *row_at = MR_NEW(&ctx, count + 1, int);
-	int *value_at = MR_NEW(&ctx, count + 1, int), *row, *permutation;
+	int *first = MR_NEW(&ctx, count + 1, int), *row, *permutation;
+	int *above = MR_NEW(&ctx, count, int), *below_it = MR_NEW(&ctx, count, int);
+	size_t *row_at = MR_NEW(&ctx, count + 1, size_t), *value_at = MR_NEW(&ctx, count + 1, size_t);
 	int **list = MR_NEW(&ctx, count, int *);
 	size_t *length = MR_NEW(&ctx, count, size_t);
 	double *value;
@@ -71,8 +72,8 @@ random_factor(mr_random *r, size_t count, size_t widest, double share)
 	row_at[0] = value_at[0] = 0;
 	for (size_t s = 0; s < count; s++) {
 		size_t nc = (size_t)(first[s + 1] - first[s]), nr = length[s];
-		row_at[s + 1] = row_at[s] + (int)nr;
-		value_at[s + 1] = value_at[s] + (int)(nr * nc);
+		row_at[s + 1] = row_at[s] + nr;
+		value_at[s + 1] = value_at[s] + nr * nc;
 		memcpy(row + row_at[s], list[s], nr * sizeof *row);
 		for (size_t c = 0; c < nc; c++)
 			for (size_t k = 0; k < nr; k++) {
@@ -80,7 +81,7 @@ random_factor(mr_random *r, size_t count, size_t widest, double share)
 				                  : (mr_random_real(r) - 0.5) / (double)nr;
 				size_t column = (size_t)first[s] + c;
 				/* above the diagonal of a panel stands what nobody may read */
-				value[(size_t)value_at[s] + c * nr + k] = k < c ? NAN : x;
+				value[value_at[s] + c * nr + k] = k < c ? NAN : x;
 				if (k >= c)
 					f.dense[column * n + (size_t)list[s][k]] = x;
 			}
@@ -93,7 +94,23 @@ random_factor(mr_random *r, size_t count, size_t widest, double share)
 		permutation[i] = permutation[j];
 		permutation[j] = x;
 	}
-	f.l = (mr_panels){ n, count, first, row_at, value_at, row, value, permutation };
+	for (size_t s = 0; s < count; s++)
+		below_it[s] = (int)s;
+	for (size_t s = 0; s < count; s++) {
+		above[s] = parent[s] < count ? (int)parent[s] : -1;
+		if (parent[s] < count && below_it[s] < below_it[parent[s]])
+			below_it[parent[s]] = below_it[s];
+	}
+	f.l = (mr_panels){ .n = n,
+		.count = count,
+		.first = first,
+		.row = row,
+		.parent = above,
+		.first_below = below_it,
+		.row_at = row_at,
+		.value_at = value_at,
+		.value = value,
+		.permutation = permutation };
 	return f;
 }
 
