@@ -1,8 +1,6 @@
-/*
- * Rigid alignment: of many guesses those that bring most points onto the other side, and of these, drawn near
+/* Rigid alignment: of many guesses those that bring most points onto the other side, and of these, drawn near
  * by points to planes (Chen, Medioni 1992; Rusinkiewicz 2019: the planes by the sum of both normals; Tukey's
- * weights trim what has no partner), the one on which most points lie.
- */
+ * weights trim what has no partner), the one on which most points lie. */
 #include "align/model.h"
 
 #include "base/sort.h"

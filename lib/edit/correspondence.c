@@ -199,10 +199,8 @@ has_other(const walker *w, const mr_incidence *inc, uint32_t u)
 	return false;
 }
 
-/*
- * A walk downhill ends where every step leads away: on the underside of a plate below the vertex, say, if it
- * began there.  So vertices follow their neighbours that stand nearer, until none comes nearer.
- */
+/* A walk downhill ends where every step leads away: on the underside of a plate below the vertex, say, if it
+ * began there.  So vertices follow their neighbours that stand nearer, until none comes nearer. */
 static void
 follow_neighbours(mr_ctx *ctx, const walker *w, const mr_incidence *inc)
 {

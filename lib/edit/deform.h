@@ -24,11 +24,9 @@ const uint32_t *mr_deform_region(const mr_deform *d);
 /* The highest handle that some vertex has, plus one. */
 size_t mr_deform_handles(const mr_deform *d);
 
-/*
- * Poses the surface p0 by maps of the handles, p = T p0 + z, D^k z = 0 on the free vertices, or as an energy
+/* Poses the surface p0 by maps of the handles, p = T p0 + z, D^k z = 0 on the free vertices, or as an energy
  * has it (deform_energy.h); maps NULL: constrained vertices stay, and D^k p = 0.  MR_ERANGE where a map has
- * no vertex to move.  out: nv, the caller's, not p0.
- */
+ * no vertex to move.  out: nv, the caller's, not p0. */
 mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out);
 
 /* The response of every vertex to the handles' maps, for mr_pose_by_response: nv rows of 4 mr_deform_handles

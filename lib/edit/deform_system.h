@@ -1,8 +1,6 @@
-/*
- * deform_system.h -- the k-th power of the Laplacian on a patch.  With L the cotangent Laplacian, M the
+/* deform_system.h -- the k-th power of the Laplacian on a patch.  With L the cotangent Laplacian, M the
  * areas, D = -M^-1 L and free rows f, (D^k)_ff = (-1)^k M_f^-1 [L (M^-1 L)^(k-1)]_ff: a row scaling of a
- * symmetric matrix, K, which reaches k rings into the constraints.  Private to this room.
- */
+ * symmetric matrix, K, which reaches k rings into the constraints.  Private to this room. */
 #ifndef MR_EDIT_DEFORM_SYSTEM_H
 #define MR_EDIT_DEFORM_SYSTEM_H
 

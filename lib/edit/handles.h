@@ -36,11 +36,9 @@ typedef struct mr_handle_rows {
 	mr_v3 *turn; /* the logarithm of the map's rotation with all its turns, which a map does not tell */
 } mr_handle_rows;
 
-/*
- * The frame's maps and turns (handles.transform, handles.turn), at least n: absent ones are the identity,
+/* The frame's maps and turns (handles.transform, handles.turn), at least n: absent ones are the identity,
  * absent turns the smallest.  MR_ERANGE where one is not finite, or the columns differ in length.  row: in
- * the arena.
- */
+ * the arena. */
 mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *row);
 
 /* map[handle] = T map[handle], its turn the logarithm nearest to the sum of both turns.  MR_EMISSING where no

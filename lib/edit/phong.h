@@ -1,8 +1,6 @@
-/*
- * phong.h -- a triangle mesh with the continuous normal field of Phong shading: N(w) interpolates the vertex
+/* phong.h -- a triangle mesh with the continuous normal field of Phong shading: N(w) interpolates the vertex
  * normals, n = N / |N|, so p = b + h n(b) follows what the mesh is deformed into (Kobbelt, Vorsatz, Seidel
- * 1999).
- */
+ * 1999). */
 #ifndef MR_EDIT_PHONG_H
 #define MR_EDIT_PHONG_H
 

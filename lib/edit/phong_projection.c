@@ -1,8 +1,6 @@
-/*
- * The foot of a point by a walk over faces (Kobbelt, Vorsatz, Seidel 1999: Multiresolution hierarchies on
- * unstructured triangle meshes).  Over one face, with N = n0 + u m1 + v m2 not normalised and h = t |N|,
- * p0 + u e1 + v e2 + t (n0 + u m1 + v m2) = p is solved by Newton's method, with one 3x3 determinant a step.
- */
+/* The foot of a point by a walk over faces (Kobbelt, Vorsatz, Seidel 1999: Multiresolution hierarchies on
+ * unstructured triangle meshes).  Over one face, with N = n0 + u m1 + v m2 not normalised and h = t |N|, p0 +
+ * u e1 + v e2 + t (n0 + u m1 + v m2) = p is solved by Newton's method, with one 3x3 determinant a step. */
 #include "edit/phong_projection.h"
 
 typedef struct field {

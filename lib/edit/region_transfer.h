@@ -11,11 +11,9 @@ bool mr_transfer_applies(const mr_frame *f, const char *layer);
 /* MR_EMISSING: the layer has no regions.  The sentence says where they are, and how it gets some. */
 mr_status mr_transfer_missing(mr_ctx *ctx, const mr_frame *f, const char *layer);
 
-/*
- * The regions of a layer: its own, or of a base those of the mesh: of the corner with the largest barycentric
+/* The regions of a layer: its own, or of a base those of the mesh: of the corner with the largest barycentric
  * coordinate of its place by the source map, else of the closest point.  MR_EMESH where a handle of the mesh
- * reaches no vertex of the base.  region: one per vertex of `base`.
- */
+ * reaches no vertex of the base.  region: one per vertex of `base`. */
 mr_status mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **region);
 
 /* One tie for each vertex of the base and component that touch by the vertices of the mesh that stand on

@@ -21,11 +21,9 @@ typedef struct mr_groups {
 	size_t length;
 } mr_groups;
 
-/*
- * Appends the rule that vertices for which `predicate` holds are of `region`.  `option`: what sentences call
+/* Appends the rule that vertices for which `predicate` holds are of `region`.  `option`: what sentences call
  * the rule; both texts are kept by pointer.  MR_EUSAGE where it does not parse; MR_EIO, MR_EFORMAT of a file
- * of vertices.
- */
+ * of vertices. */
 mr_status
 mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *option, const char *predicate);
 
@@ -36,11 +34,9 @@ mr_status mr_selection_add_file(mr_ctx *ctx, mr_selection *s, const char *option
 /* The region that the first rule gives. */
 uint32_t mr_selection_begins(const mr_selection *s);
 
-/*
- * Applies the rules in order: later ones win.  region: nv, in and out.  Fails where a rule selects nothing or
+/* Applies the rules in order: later ones win.  region: nv, in and out.  Fails where a rule selects nothing or
  * needs what is not there.  f: that m is a layer of; NULL: none.  groups: MR_NAMINGS of them.  result: or
- * NULL; in the arena.
- */
+ * NULL; in the arena. */
 mr_status mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups,
     const mr_selection *s, uint32_t *region, mr_select_result *result);
 

@@ -10,11 +10,9 @@ typedef struct mr_transform {
 	size_t n, room;
 } mr_transform;
 
-/*
- * Appends the step `what`: "translate" x,y,z; "rotate" ax,ay,az,degrees; "scale" s or sx,sy,sz; "matrix" 12
+/* Appends the step `what`: "translate" x,y,z; "rotate" ax,ay,az,degrees; "scale" s or sx,sy,sz; "matrix" 12
  * or 16 numbers, or a file of them; "up" from:to, two of x, y, z, -x, -y, -z; "center"; "unit", the longest
- * side to 1, too.  MR_EUSAGE with a sentence; MR_EIO, MR_EFORMAT of a file.
- */
+ * side to 1, too.  MR_EUSAGE with a sentence; MR_EIO, MR_EFORMAT of a file. */
 mr_status mr_transform_add(mr_ctx *ctx, mr_transform *t, const char *what, const char *text) MR_WARN_UNUSED;
 
 /* The map of all steps for this frame; the box is that of all positions, or of those of the layer, where it

@@ -1,8 +1,6 @@
-/*
- * Deformation gradients of faces with their normals (Sumner, Popovic 2004), weighted by area and smoothed.
+/* Deformation gradients of faces with their normals (Sumner, Popovic 2004), weighted by area and smoothed.
  * With x1, x2 two sides, n the normal, A twice the area at rest, y1, y2, m those now: A F = y1 (x2 x n)^T +
- * y2 (n x x1)^T + A m n^T.
- */
+ * y2 (n x x1)^T + A m n^T. */
 #include "edit/turns.h"
 
 #include "base/vectors.h"

@@ -4,12 +4,10 @@
 
 #include "mesh/layers.h"
 
-/*
- * A key frame with the name and order of the first of n > 0 frames: a layer has the rows of all that have it,
+/* A key frame with the name and order of the first of n > 0 frames: a layer has the rows of all that have it,
  * triangles and what refers to rows new numbers, names are those of all.  Columns that not every frame with
  * the layer has in one shape are lost, and so are handles, displacement and samplings of several. Histories
- * are joined, equal ones once.  *out is in the arena and borrows from the frames.
- */
+ * are joined, equal ones once.  *out is in the arena and borrows from the frames. */
 mr_status mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out) MR_WARN_UNUSED;
 
 #endif

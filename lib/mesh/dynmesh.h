@@ -1,8 +1,6 @@
-/*
- * dynmesh.h -- an oriented manifold triangle mesh under local change: split, collapse, flip.  Half-edges are
+/* dynmesh.h -- an oriented manifold triangle mesh under local change: split, collapse, flip.  Half-edges are
  * 3 f + i; collapses leave holes in the numbering, which splits fill and mr_dyn_compact closes.  Curves
- * (boundary and feature edges) are marked on their half-edges and survive every change.
- */
+ * (boundary and feature edges) are marked on their half-edges and survive every change. */
 #ifndef MR_MESH_DYNMESH_H
 #define MR_MESH_DYNMESH_H
 
@@ -125,11 +123,9 @@ mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
 	return longest2 > 0 ? mr_norm(mr_cross(mr_sub(b, a), mr_sub(c, a))) / longest2 : 0;
 }
 
-/*
- * Copies m into the arena.  Curves are the boundary, edges whose faces meet at more than `feature` degrees,
+/* Copies m into the arena.  Curves are the boundary, edges whose faces meet at more than `feature` degrees,
  * and what `seam` marks (3 nf; NULL: nothing); corners where other than two meet or one turns by more than 50
- * degrees.
- */
+ * degrees. */
 mr_status mr_dyn_build(
     mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam, double feature, mr_dyn *d);
 

@@ -1,8 +1,6 @@
-/*
- * fold.h -- a fold is an edge at which the normals of two faces are more than 170 degrees apart: MR_FOLD.
+/* fold.h -- a fold is an edge at which the normals of two faces are more than 170 degrees apart: MR_FOLD.
  * What moves vertices stops short of it, at MR_NEAR_FOLD: what is folded by 150 degrees is folded over by the
- * next steps.
- */
+ * next steps. */
 #ifndef MR_MESH_FOLD_H
 #define MR_MESH_FOLD_H
 

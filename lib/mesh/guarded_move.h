@@ -1,8 +1,6 @@
-/*
- * guarded_move.h -- moves of vertices that leave no face bad.  Round by round the corners of faces that would
+/* guarded_move.h -- moves of vertices that leave no face bad.  Round by round the corners of faces that would
  * be bad go half as far, after some rounds they stay.  Where every face is good that stays as it is, the move
- * is good.  Deterministic for any number of threads; linear time.
- */
+ * is good.  Deterministic for any number of threads; linear time. */
 #ifndef MR_MESH_GUARDED_MOVE_H
 #define MR_MESH_GUARDED_MOVE_H
 
@@ -13,10 +11,8 @@ typedef struct mr_guard {
 	mr_topology topo;
 	size_t nv, nf;
 	unsigned halves; /* rounds in which what is held back goes half as far; in later ones it stays */
-	/*
-	 * What is bad of a face may depend on how its corners and those of its neighbours move.  Where it
-	 * depends on more, `look` looks at the whole surface first, each time; NULL: it does not.
-	 */
+	/* What is bad of a face may depend on how its corners and those of its neighbours move.  Where it
+	 * depends on more, `look` looks at the whole surface first, each time; NULL: it does not. */
 	mr_status (*look)(mr_ctx *ctx, void *arg);
 	bool (*is_bad)(const void *arg, uint32_t f);
 	void *arg;

@@ -45,11 +45,9 @@ mr_he_ccw(const mr_topology *topo, uint32_t h)
 	return topo->twin[mr_he_prev(h)];
 }
 
-/*
- * The half-edges of an oriented manifold mesh, boundary and isolated vertices allowed, in the arena.
- * MR_EMESH names the edge of three faces or of opposite orientations, the vertex of two fans, or the face
- * with a vertex twice.
- */
+/* The half-edges of an oriented manifold mesh, boundary and isolated vertices allowed, in the arena. MR_EMESH
+ * names the edge of three faces or of opposite orientations, the vertex of two fans, or the face with a
+ * vertex twice. */
 mr_status mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo);
 
 /* Neighbours of each vertex, sorted, each once, of any mesh: adj[start[i]] to adj[start[i + 1]]; start has nv

@@ -1,8 +1,6 @@
-/*
- * Ear clipping (Meisters 1975, Polygons have ears; Eberly): only reflex corners can lie in an ear.  The
+/* Ear clipping (Meisters 1975, Polygons have ears; Eberly): only reflex corners can lie in an ear.  The
  * polygon is seen along the axis nearest to its Newell normal: coordinates are dropped, so that rounding
- * spoils no sign.
- */
+ * spoils no sign. */
 #include "mesh/polygon.h"
 
 typedef struct point {

@@ -4,11 +4,9 @@
 
 #include "mesh/mesh.h"
 
-/*
- * Triangulates the polygon p[corner[0]], ..., n >= 3, without new vertices: exactly, where it is simple, seen
+/* Triangulates the polygon p[corner[0]], ..., n >= 3, without new vertices: exactly, where it is simple, seen
  * along Newell's normal; convex ones become fans.  t: n - 2 triangles of corners from 0 to n - 1, the
- * caller's, in the order from which mr_polygons_find finds the polygon again.
- */
+ * caller's, in the order from which mr_polygons_find finds the polygon again. */
 void mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t);
 
 /* Faces of any number of corners, made of the triangles of a mesh. */

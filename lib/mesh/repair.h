@@ -4,11 +4,9 @@
 
 #include "mesh/mesh.h"
 
-/*
- * Joins vertices that are equal (eps 0; -0 equals 0) or within eps: a vertex joins the lowest earlier one
+/* Joins vertices that are equal (eps 0; -0 equals 0) or within eps: a vertex joins the lowest earlier one
  * that stands for itself and is no farther, else stands for itself.  map: n new numbers, in order of first
- * use; *count: how many.
- */
+ * use; *count: how many. */
 void mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count);
 
 /* What a repair did. */
@@ -25,13 +23,11 @@ typedef struct mr_repair_report {
 	size_t open;      /* edges of the boundary that is left */
 } mr_repair_report;
 
-/*
- * An oriented manifold with boundary of the triangles of `m`, without degenerate and duplicate faces.  Edges
+/* An oriented manifold with boundary of the triangles of `m`, without degenerate and duplicate faces.  Edges
  * of more than two faces are parted by the wedges of the solid, fans at a vertex, too.  Components are
  * oriented as most of their faces, a closed one where that is less than three quarters outwards.  out: in the
  * arena.  vertex_of, face_of: of each the one of `m`; a face turned over keeps its first vertex.  MR_EMESH
- * where no face is left.
- */
+ * where no face is left. */
 mr_status mr_repair(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out, const uint32_t **vertex_of,
     const uint32_t **face_of, mr_repair_report *report) MR_WARN_UNUSED;
 

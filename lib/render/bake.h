@@ -1,8 +1,6 @@
-/*
- * bake.h -- what a surface or a cloud looks like, in a texture of another surface (Cignoni et al. 1998).
+/* bake.h -- what a surface or a cloud looks like, in a texture of another surface (Cignoni et al. 1998).
  * Texture coordinates are rounded to a 256th of a texel; then all that decides which face a texel is on is
- * exact.
- */
+ * exact. */
 #ifndef MR_RENDER_BAKE_H
 #define MR_RENDER_BAKE_H
 
@@ -33,12 +31,10 @@ typedef struct mr_baked {
 	size_t turned;          /* of them, those whose normal looks away from the target */
 } mr_baked;
 
-/*
- * Each texel shows the source along the target's normal, if it faces the same way and is at most some three
+/* Each texel shows the source along the target's normal, if it faces the same way and is at most some three
  * times as far as the nearest place, else that; of points the mean of eight, weighted by distance (Franke,
  * Nielson 1980).  Normals are in tangent space (Mikkelsen 2008); of points without normals those of `fine`.
- * Texels off the faces continue them for `gutter`; the rest has the mean colour.
- */
+ * Texels off the faces continue them for `gutter`; the rest has the mean colour. */
 mr_status
 mr_bake_draw(mr_ctx *ctx, const mr_bake_source *s, const mr_bake_target *t, mr_baked *baked) MR_WARN_UNUSED;
 

@@ -1,7 +1,6 @@
-/*
- * A chart is the faces around a first one whose normals are within 60 degrees of their mean.  Charts go where
+/* A chart is the faces around a first one whose normals are within 60 degrees of their mean.  Charts go where
  * they lie lowest on those before, the highest first (Levy and others 2002, "Least squares conformal maps").
- */
+ * */
 #include "render/charts.h"
 
 #include "mesh/edges.h"
