@@ -1,6 +1,6 @@
 /* mr-crop -- keep or drop a part of a layer.  See man/mr-crop.1. */
 #include "cmd.h"
-#include "tool/select.h"
+#include "tool/tool.h"
 
 static mr_selection selection = { .may_miss = true };
 

@@ -1,7 +1,7 @@
 /* mr-sample -- sample the displacement of a subdivision surface to points or a mesh.  See man/mr-sample.1. */
 #include "cmd.h"
 #include "sample/sample.h"
-#include "tool/sample.h"
+#include "tool/tool.h"
 
 static mr_sample_opts opts = MR_SAMPLE_DEFAULTS;
 

@@ -1,7 +1,7 @@
 /* mr-select -- choose which vertices are fixed, free, or in a handle.  See man/mr-select.1. */
 #include "base/text_file.h"
 #include "cmd.h"
-#include "tool/select.h"
+#include "tool/tool.h"
 
 static mr_select_opts opts = MR_SELECT_DEFAULTS;
 static mr_selection selection;

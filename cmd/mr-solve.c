@@ -1,6 +1,6 @@
 /* mr-solve -- move the free vertices of a base to where its constraints have them.  See man/mr-solve.1. */
 #include "cmd.h"
-#include "tool/solve.h"
+#include "tool/tool.h"
 
 static mr_solve_opts opts = MR_SOLVE_DEFAULTS;
 static double megabytes;

@@ -7,7 +7,7 @@
 #include "mesh/subset.h"
 #include "mesh/validate.h"
 #include "stream/record.h"
-#include "tool/mend.h"
+#include "tool/tool.h"
 
 #include <float.h>
 

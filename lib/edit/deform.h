@@ -18,9 +18,6 @@ mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, c
 mr_solve_result mr_deform_report(mr_ctx *ctx, const mr_deform *d);
 void mr_deform_measures(mr_deform *d, bool residual);
 
-/* The regions: one per vertex, d's. */
-const uint32_t *mr_deform_region(const mr_deform *d);
-
 /* The highest handle that some vertex has, plus one. */
 size_t mr_deform_handles(const mr_deform *d);
 

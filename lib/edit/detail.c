@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include "base/vectors.h"
 #include "edit/correspondence.h"
-#include "edit/phong_projection.h"
 #include "edit/turns.h"
 #include "space/bvh.h"
 
@@ -44,7 +43,7 @@ typedef struct tally {
 } tally;
 
 typedef struct encoder {
-	mr_ground ground;
+	mr_foot_ground ground;
 	const mr_mesh *mesh;
 	const mr_correspondence *map; /* NULL without a source map, and for all that it reaches nothing of: */
 	const mr_bvh *bvh;            /* of the base */
@@ -286,7 +285,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
 	mr_incidence_build(ctx, base, &inc);
 	mr_vertex_normals(base, normal);
-	e.ground = (mr_ground){ { base, normal }, &inc, mr_box_tolerance(box, 1e-14) };
+	e.ground = (mr_foot_ground){ { base, normal }, &inc, mr_box_tolerance(box, 1e-14) };
 	find_all_feet(ctx, source, &e);
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
 	found = (mr_detail){ n, { e.face, e.bary }, e.height, all_sound(&e) ? NULL : e.offset, base->p,

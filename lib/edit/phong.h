@@ -41,4 +41,20 @@ double mr_phong_curvature(const mr_phong *s, mr_place at);
 /* The frame there: t1 is the face's edge 0-1 without its part along n, t2 = n x t1. */
 mr_tangent_frame mr_phong_frame(const mr_phong *s, mr_place at);
 
+/* The surface on which feet are looked for. */
+typedef struct mr_foot_ground {
+	mr_phong surface;
+	const mr_incidence *inc;
+	double tolerance; /* the residual |b + h n - p| that is accepted */
+} mr_foot_ground;
+
+typedef struct mr_foot {
+	mr_place at;   /* its coordinates within 1e-9 of the face */
+	double height; /* along the Phong normal */
+} mr_foot;
+
+/* Newton's method from `start`, over edges into neighbouring faces.  True where it found a foot with |height|
+ * <= limit, this side of the centres of curvature; *foot is written only then. */
+bool mr_foot_walk(const mr_foot_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot);
+
 #endif

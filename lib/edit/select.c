@@ -4,7 +4,7 @@
 
 #include "base/text_file.h"
 #include "edit/selection_file.h"
-#include "mesh/edges.h"
+#include "measure/measure.h"
 #include "mesh/layers.h"
 #include "mesh/repair.h"
 #include "space/connected.h"
@@ -389,11 +389,7 @@ eval_boundary(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 
 	(void)t;
 	mr_edges_build(ctx, s->m, &edges);
-	for (size_t e = 0; e < edges.count; e++)
-		if (mr_edge_faces(&edges, e) == 1) {
-			uint32_t h = edges.he[edges.start[e]];
-			in[mr_he_from(s->m, h)] = in[mr_he_to(s->m, h)] = true;
-		}
+	mr_mark_boundary(s->m, &edges, in);
 	return MR_OK;
 }
 

@@ -300,13 +300,6 @@ sort_of(const mr_column *c)
 	}
 }
 
-/* Whether it follows only what scales alike in every direction. */
-static bool
-wants_alike(column_sort sort)
-{
-	return sort == LENGTHS || sort == OFFSETS;
-}
-
 static void
 swap(void *a, void *b, size_t size)
 {
@@ -315,14 +308,6 @@ swap(void *a, void *b, size_t size)
 	memcpy(kept, a, size);
 	memcpy(a, b, size);
 	memcpy(b, kept, size);
-}
-
-/* The first two of the three parts of each row change places, where faces are turned over. */
-static void
-swap_corners(char *x, size_t rows, size_t width)
-{
-	for (size_t i = 0; i < rows; i++, x += width)
-		swap(x, x + width / 3, width / 3);
 }
 
 /* n values of a column of doubles in rows of `components`. */
@@ -347,14 +332,16 @@ static mr_status
 map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_sort sort)
 {
 	size_t rows = (size_t)column->rows, components = column->shape.components;
+	size_t part = mr_type_size(column->shape.type) * components / 3;
 	bool corners = sort == CORNERS || (sort == NORMALS && column->shape.element == 'f');
 	void *x;
 
 	if (sort == OTHER || ((sort == CORNERS || sort == EDGES) && !c->mirrors))
 		return MR_OK;
 	MR_TRY(copy_rows(ctx, column, &x));
-	if (corners && c->mirrors)
-		swap_corners(x, rows, mr_type_size(column->shape.type) * components);
+	/* the first two of the three parts of each row change places, where faces are turned over */
+	for (size_t i = 0; corners && c->mirrors && i < rows; i++)
+		swap((char *)x + 3 * i * part, (char *)x + (3 * i + 1) * part, part);
 	for (size_t i = 0; sort == EDGES && i < rows; i++)
 		swap((char *)x + 3 * i + 1, (char *)x + 3 * i + 2, 1);
 	if (column->shape.type == 'd')
@@ -374,7 +361,9 @@ static mr_status
 check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 {
 	for (const mr_column *column = f->columns; column < f->columns + f->count; column++) {
-		if ((layer && strcmp(layer, column->layer)) || !wants_alike(sort_of(column)))
+		column_sort sort = sort_of(
+		    column); /* lengths follow only what scales alike in every direction */
+		if ((layer && strcmp(layer, column->layer)) || (sort != LENGTHS && sort != OFFSETS))
 			continue;
 		if (c->scale == 0)
 			return mr_fail(ctx, MR_EMESH,

@@ -8,8 +8,6 @@
 
 void mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *census);
 
-mr_spread mr_spread_of(const double *x, size_t n);
-
 void mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geometry *geometry);
 
 /* Marks the ends of boundary edges.  boundary: nv, the caller's. */

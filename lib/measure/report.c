@@ -84,12 +84,6 @@ figures_text(mr_text *t, const figure *table, size_t n, const void *values)
 	mr_text_add(t, any ? "\n" : " none\n");
 }
 
-static void
-figures(mr_text *t, const figure *table, size_t n, const void *values, bool json)
-{
-	(json ? figures_json : figures_text)(t, table, n, values);
-}
-
 static const figure surface_figures[] = {
 	{ "components", COUNT, offsetof(mr_surface_figures, census.components), "topology" },
 	{ "euler", WHOLE, offsetof(mr_surface_figures, census.euler), NULL },
@@ -165,19 +159,13 @@ box(mr_text *t, const mr_box *b, bool json)
 	mr_text_add(t, json ? "]]" : "\n");
 }
 
-/* json: members of an object, with a comma before each; else lines. */
+/* The figures of the struct at `values`, and its box. json: members of an object, with a comma before each;
+ * else lines. */
 static void
-put_surface(mr_text *t, const mr_surface_figures *s, bool json)
+figures(mr_text *t, const figure *table, size_t n, const void *values, const mr_box *b, bool json)
 {
-	figures(t, surface_figures, LENGTH(surface_figures), s, json);
-	box(t, &s->geometry.box, json);
-}
-
-static void
-put_cloud(mr_text *t, const mr_cloud_figures *c, bool json)
-{
-	figures(t, cloud_figures, LENGTH(cloud_figures), c, json);
-	box(t, &c->box, json);
+	(json ? figures_json : figures_text)(t, table, n, values);
+	box(t, b, json);
 }
 
 typedef struct report {
@@ -294,7 +282,7 @@ report_surface(const report *r, const char *layer)
 		mr_text_add(r->t, "  %s: %zu vertices, %zu faces\n", layer, m.nv, m.nf);
 		columns(r, layer);
 	}
-	put_surface(r->t, &s, r->opts->json);
+	figures(r->t, surface_figures, LENGTH(surface_figures), &s, &s.geometry.box, r->opts->json);
 	return MR_OK;
 }
 
@@ -310,7 +298,7 @@ report_cloud(const report *r, const char *layer)
 		mr_text_add(r->t, "  %s: %zu points\n", layer, c.points);
 		columns(r, layer);
 	}
-	put_cloud(r->t, &c, r->opts->json);
+	figures(r->t, cloud_figures, LENGTH(cloud_figures), &c, &c.box, r->opts->json);
 	return MR_OK;
 }
 

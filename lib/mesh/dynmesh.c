@@ -1,6 +1,8 @@
 /* Splits, collapses and flips of half-edges, and what they need to know of their surroundings. */
 #include "mesh/dynmesh.h"
 
+#include "mesh/zorder.h"
+
 unsigned
 mr_dyn_valence(const mr_dyn *d, uint32_t v, unsigned most)
 {
@@ -69,6 +71,38 @@ link_twins(mr_dyn *d, uint32_t h, uint32_t g)
 }
 
 static void
+room_for_vertices(mr_ctx *ctx, mr_dyn *d, size_t room)
+{
+	mr_v3 *p = mr_grow(ctx, d->p, d->nv, room, sizeof *p);
+	uint32_t *out = mr_grow(ctx, d->out, d->nv, room, sizeof *out);
+	uint32_t *at = mr_grow(ctx, d->at, d->nv, room, sizeof *at);
+	uint8_t *kind = mr_grow(ctx, d->kind, d->nv, room, sizeof *kind);
+
+	d->p = p;
+	d->out = out;
+	d->at = at;
+	d->kind = kind;
+	d->room_v = room;
+}
+
+static mr_status
+room_for_faces(mr_ctx *ctx, mr_dyn *d, size_t room)
+{
+	uint32_t *v = mr_grow(ctx, d->v, 3 * d->nf, 3 * room, sizeof *v);
+	uint32_t *twin = mr_grow(ctx, d->twin, 3 * d->nf, 3 * room, sizeof *twin);
+
+	if (room > (MR_NONE - 1) / 3)
+		return mr_fail(
+		    ctx, MR_ERANGE, "remeshing would take more than %zu faces", (size_t)(MR_NONE - 1) / 6);
+	d->v = v;
+	d->twin = twin;
+	if (d->curve)
+		d->curve = mr_grow(ctx, d->curve, 3 * d->nf, 3 * room, sizeof *d->curve);
+	d->room_f = room;
+	return MR_OK;
+}
+
+static void
 add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 {
 	if (d->free_v != MR_NONE) {
@@ -77,7 +111,7 @@ add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 		return;
 	}
 	if (d->nv == d->room_v)
-		mr_dyn_room_v(ctx, d, d->room_v + d->room_v / 2);
+		room_for_vertices(ctx, d, d->room_v + d->room_v / 2);
 	*v = (uint32_t)d->nv++;
 }
 
@@ -90,7 +124,7 @@ add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 		return MR_OK;
 	}
 	if (d->nf == d->room_f)
-		MR_TRY(mr_dyn_room_f(ctx, d, d->room_f + d->room_f / 2));
+		MR_TRY(room_for_faces(ctx, d, d->room_f + d->room_f / 2));
 	*f = (uint32_t)d->nf++;
 	for (uint32_t h = 3 * *f; h < 3 * *f + 3 && d->curve; h++)
 		d->curve[h] = MR_NONE;
@@ -346,4 +380,214 @@ mr_dyn_flip(mr_dyn *d, uint32_t h)
 		d->out[b] = g;
 	if (d->out[a] == gn)
 		d->out[a] = h;
+}
+
+/* ---- from a mesh, with its curves of sharp edges ---- */
+
+/* Unit direction from a to b. */
+static mr_v3
+direction(const mr_dyn *d, uint32_t a, uint32_t b)
+{
+	return mr_unit(mr_sub(d->p[b], d->p[a]));
+}
+
+/* Boundaries, seams, and edges sharper than `feature` degrees. */
+static void
+mark_curves(mr_ctx *ctx, mr_dyn *d, const uint8_t *seam, double feature)
+{
+	double cosine = cos(feature * MR_PI / 180);
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++) {
+		uint32_t g = d->twin[h];
+		if (g != MR_NONE && !(seam && seam[h]) &&
+		    !(feature < 180 && mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)),
+					   mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine))
+			continue;
+		if (!d->curve) {
+			d->curve = MR_NEW(ctx, 3 * d->room_f, uint32_t);
+			memset(d->curve, 0xff, 3 * d->nf * sizeof *d->curve);
+		}
+		d->curve[h] = h;
+	}
+}
+
+/* The kind of v by the curve edges that meet there. */
+static mr_kind
+kind_of(const mr_dyn *d, uint32_t v)
+{
+	uint32_t end[2];
+	unsigned curves = mr_dyn_along(d, v, end);
+
+	if (curves == 0)
+		return MR_SMOOTH;
+	return curves == 2 && mr_dot(direction(d, end[0], v), direction(d, v, end[1])) > MR_CORNER_COSINE
+	           ? MR_CURVE
+	           : MR_CORNER;
+}
+
+/* A place on the source for a vertex to begin with: a face at it, or a curve half-edge. */
+static uint32_t
+first_place(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+
+	if (d->kind[v] == MR_SMOOTH)
+		return h / 3;
+	do {
+		if (mr_dyn_on_curve(d, h))
+			return h;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return d->out[v];
+}
+
+/* Room for what splits add, more than they need but seldom: what is not used of it costs no memory. */
+static size_t
+ample(size_t n)
+{
+	return n < MR_NONE / 16 ? 4 * n + 32 : n + n / 4 + 32;
+}
+
+mr_status
+mr_dyn_build(
+    mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const uint8_t *seam, double feature, mr_dyn *out)
+{
+	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
+
+	room_for_vertices(ctx, &d, ample(m->nv));
+	MR_TRY(room_for_faces(ctx, &d, ample(m->nf)));
+	d.nv = m->nv;
+	d.nf = m->nf;
+	memcpy(d.p, m->p, m->nv * sizeof *d.p);
+	memcpy(d.out, topo->out, m->nv * sizeof *d.out);
+	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
+	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
+	mark_curves(ctx, &d, seam, feature);
+	memset(d.kind, MR_SMOOTH, m->nv);
+	for (uint32_t v = 0; v < m->nv; v++) {
+		if (d.out[v] == MR_NONE) {
+			d.kind[v] = MR_DEAD; /* an isolated vertex: not part of the surface */
+			continue;
+		}
+		d.kind[v] = (uint8_t)kind_of(&d, v);
+		d.at[v] = first_place(&d, v);
+	}
+	*out = d;
+	return MR_OK;
+}
+
+mr_mesh
+mr_dyn_view(const mr_dyn *d, const char *name)
+{
+	return (mr_mesh){ name, d->p, (const mr_tri *)(const void *)d->v, d->nv, d->nf };
+}
+
+/* ---- numbers without holes, and along the Z curve (Morton 1966) ---- */
+
+/* Applies new numbers to an array of n objects, but to those without: new[number[i]] = old[i]. */
+static void
+permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
+{
+	MR_SCOPE(ctx);
+	char *copy, *to = array;
+
+	if (!array)
+		return;
+	copy = mr_alloc(ctx, n, size);
+	memcpy(copy, array, n * size);
+	for (size_t i = 0; i < n; i++)
+		if (number[i] != MR_NONE)
+			memcpy(to + number[i] * size, copy + i * size, size);
+}
+
+static void
+permute_vertices(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
+{
+	permute(ctx, d->p, d->nv, sizeof *d->p, number);
+	permute(ctx, d->out, d->nv, sizeof *d->out, number);
+	permute(ctx, d->at, d->nv, sizeof *d->at, number);
+	permute(ctx, d->kind, d->nv, sizeof *d->kind, number);
+	for (size_t h = 0; h < 3 * d->nf; h++)
+		if (!mr_dyn_face_dead(d, h / 3))
+			d->v[h] = number[d->v[h]];
+}
+
+static uint32_t
+renumbered(const uint32_t *number, uint32_t h)
+{
+	return h == MR_NONE ? MR_NONE : 3 * number[h / 3] + h % 3;
+}
+
+/* nv: of the vertices that live. */
+static void
+permute_faces(mr_ctx *ctx, mr_dyn *d, size_t nv, const uint32_t *number)
+{
+	for (size_t h = 0; h < 3 * d->nf; h++)
+		if (!mr_dyn_face_dead(d, h / 3))
+			d->twin[h] = renumbered(number, d->twin[h]);
+	for (size_t v = 0; v < nv; v++)
+		d->out[v] = renumbered(number, d->out[v]);
+	permute(ctx, d->v, d->nf, 3 * sizeof *d->v, number);
+	permute(ctx, d->twin, d->nf, 3 * sizeof *d->twin, number);
+	permute(ctx, d->curve, d->nf, 3 * sizeof *d->curve, number);
+}
+
+mr_status
+mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *number = MR_NEW(ctx, d->nv > d->nf ? d->nv : d->nf, uint32_t), nv = 0, nf = 0;
+
+	for (size_t v = 0; v < d->nv; v++)
+		number[v] = d->kind[v] == MR_DEAD ? MR_NONE : nv++;
+	permute_vertices(ctx, d, number);
+	d->nv = nv;
+	for (size_t f = 0; f < d->nf; f++)
+		number[f] = mr_dyn_face_dead(d, f) ? MR_NONE : nf++;
+	permute_faces(ctx, d, nv, number);
+	d->nf = nf;
+	d->free_v = d->free_f = MR_NONE;
+	mr_mark_release(ctx, mark);
+	if (d->room_v > d->nv + d->nv / 3)
+		room_for_vertices(ctx, d, d->nv + d->nv / 8 + 16);
+	return d->room_f > d->nf + d->nf / 3 ? room_for_faces(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
+}
+
+static uint32_t
+lowest(const mr_dyn *d, size_t f)
+{
+	const uint32_t *v = d->v + 3 * f;
+	uint32_t low = v[0] < v[1] ? v[0] : v[1];
+
+	return low < v[2] ? low : v[2];
+}
+
+/* By their lowest vertex: a counting sort. */
+static void
+number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
+{
+	MR_SCOPE(ctx);
+	uint32_t *next = MR_NEW_ZERO(ctx, d->nv + 1, uint32_t);
+
+	for (size_t f = 0; f < d->nf; f++)
+		next[lowest(d, f) + 1]++;
+	for (size_t v = 0; v < d->nv; v++)
+		next[v + 1] += next[v];
+	for (size_t f = 0; f < d->nf; f++)
+		number[f] = next[lowest(d, f)]++;
+}
+
+void
+mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
+{
+	MR_SCOPE(ctx);
+	uint32_t *number = MR_NEW(ctx, d->nv > d->nf ? d->nv : d->nf, uint32_t),
+		 *order = MR_NEW(ctx, d->nv, uint32_t);
+
+	mr_zorder(ctx, d->p, d->nv, MR_ZORDER_CELLS, order);
+	for (uint32_t i = 0; i < d->nv; i++)
+		number[order[i]] = i;
+	permute_vertices(ctx, d, number);
+	number_faces(ctx, d, number);
+	permute_faces(ctx, d, d->nv, number);
 }

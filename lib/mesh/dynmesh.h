@@ -165,10 +165,6 @@ bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
  * mr_dyn_can_flip. */
 void mr_dyn_flip(mr_dyn *d, uint32_t h);
 
-/* Room for so many vertices, or faces, as there are at least. */
-void mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room);
-mr_status mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room);
-
 /* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 

@@ -239,7 +239,6 @@ typedef struct baking {
 	cover cover;
 	tangents tangents;
 	double spacing; /* area of the target per texel */
-	double sign;    /* -1: the source is turned inside out */
 	size_t n;
 	const size_t *texel;
 	mr_v3 *p, *q; /* place and unit normal of each */
@@ -310,23 +309,7 @@ nearest_place(const baking *b, mr_v3 p, double most)
 static double
 faces(const baking *b, uint32_t face, mr_v3 n)
 {
-	return b->sign * mr_dot(mr_face_cross(&b->s->look.mesh, face), n);
-}
-
-/* Whether the source is inside out, by the places nearest to the target's faces. */
-static void
-find_sign(baking *b)
-{
-	const mr_mesh *m = &b->t->m;
-	double sum = 0;
-
-	for (size_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		mr_closest c = mr_bvh_closest(b->bvh, mr_mean3(m->p[v[0]], m->p[v[1]], m->p[v[2]]));
-		mr_v3 n = mr_face_cross(m, f);
-		sum += mr_norm(n) * mr_dot(mr_unit(mr_face_cross(&b->s->look.mesh, c.at.face)), mr_unit(n));
-	}
-	b->sign = sum < 0 ? -1 : 1;
+	return mr_dot(mr_face_cross(&b->s->look.mesh, face), n);
 }
 
 /* The nearest place along the normal, either way, where the surface faces as the target does. */
@@ -371,7 +354,7 @@ look_at_surface(void *arg, size_t begin, size_t end)
 		}
 		if (!find_along(b, b->p[i], b->q[i], 2 * (near + far), &at))
 			at = far > 0 ? nearest_place(b, b->p[i], near + far).at : c.at;
-		b->seen[i] = (seen){ color_at(b, at), mr_mul(b->sign, normal_at(b, at)) };
+		b->seen[i] = (seen){ color_at(b, at), normal_at(b, at) };
 	}
 }
 
@@ -434,7 +417,6 @@ prepare_source(mr_ctx *ctx, baking *b)
 	if (!s->mesh.nf)
 		return s->mesh.nv == 0 ? MR_OK : mr_near_build(ctx, s->mesh.p, s->mesh.nv, &b->near);
 	mr_bvh_build(ctx, &s->mesh, &b->bvh);
-	find_sign(b);
 	return MR_OK;
 }
 

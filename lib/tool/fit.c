@@ -3,7 +3,7 @@
 
 #include "base/options.h"
 #include "mesh/layers.h"
-#include "tool/sample.h"
+#include "tool/tool.h"
 
 /* How the points lie, of which a mesh's own are all on it, however far from others. */
 static mr_status

@@ -1,6 +1,6 @@
 /* What mr-import does to a surface that has come apart, in the order in which each needs what was done
  * before. */
-#include "tool/mend.h"
+#include "tool/tool.h"
 
 #include "base/text.h"
 #include "mesh/mend.h"

@@ -1,5 +1,5 @@
 /* mr-sample: heights over the limit surface of the control mesh. */
-#include "tool/sample.h"
+#include "tool/tool.h"
 
 #include "base/options.h"
 #include "sample/sample.h"

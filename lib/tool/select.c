@@ -1,5 +1,5 @@
 /* mr-select and mr-crop: regions by rules, and what is left of a layer by them. */
-#include "tool/select.h"
+#include "tool/tool.h"
 
 #include "base/options.h"
 #include "edit/handles.h"

@@ -7,7 +7,7 @@
 #include "mesh/repair.h"
 #include "simplify/creases.h"
 #include "space/carry.h"
-#include "tool/sample.h"
+#include "tool/tool.h"
 
 /* By default, but for control meshes. */
 enum { FACES_A_FACE = 10 };

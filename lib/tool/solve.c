@@ -1,5 +1,5 @@
 /* mr-solve: the free vertices to where the constraints have them. */
-#include "tool/solve.h"
+#include "tool/tool.h"
 
 #include "base/memory.h"
 #include "base/options.h"

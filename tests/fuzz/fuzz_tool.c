@@ -8,7 +8,7 @@
 #include "mesh/validate.h"
 #include "stream/fingerprint.h"
 #include "tests/fuzz/records.h"
-#include "tool/solve.h"
+#include "tool/tool.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
 

@@ -1,12 +1,12 @@
 /* Feet on a Phong surface: of points made from them, and by closed forms. */
-#include "edit/phong_projection.h"
+#include "edit/phong.h"
 #include "shapes.h"
 
 typedef struct scene {
 	mr_mesh m;
 	mr_incidence inc;
 	mr_topology topo;
-	mr_ground g;
+	mr_foot_ground g;
 	double edge;
 } scene;
 
@@ -21,7 +21,7 @@ set_up(scene *x, mr_mesh m)
 	mr_incidence_build(&ctx, &x->m, &x->inc);
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
 	mr_vertex_normals(&x->m, normal);
-	x->g = (mr_ground){ { &x->m, normal }, &x->inc, 1e-13 * mr_mesh_diagonal(&x->m) };
+	x->g = (mr_foot_ground){ { &x->m, normal }, &x->inc, 1e-13 * mr_mesh_diagonal(&x->m) };
 }
 
 static mr_v3
