@@ -449,6 +449,60 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 	*r = (mr_simplify_result){ nv, nf, s->merges, 0, sqrt(s->error2) / s->scale };
 }
 
+static inline void
+ask_for_face(const mr_dyn *d, uint32_t h)
+{
+	__builtin_prefetch(&d->v[h]);
+	__builtin_prefetch(&d->twin[h]);
+}
+
+static inline void
+ask_for_vertex(const simplifier *s, uint32_t v)
+{
+	__builtin_prefetch(&s->site[v]);
+	__builtin_prefetch(&s->site[v].room);
+	__builtin_prefetch(&s->d.p[v]);
+}
+
+/* The vertex across from h, and the faces there. */
+static inline void
+ask_across(const simplifier *s, uint32_t h)
+{
+	uint32_t next = s->d.twin[mr_he_next(h)], prev = s->d.twin[mr_he_prev(h)];
+
+	ask_for_vertex(s, mr_dyn_apex(&s->d, h));
+	if (next != MR_NONE)
+		ask_for_face(&s->d, next);
+	if (prev != MR_NONE)
+		ask_for_face(&s->d, prev);
+}
+
+/* Takes the next edge, and asks memory for what the three after it need, step by step: they are anywhere. */
+static uint32_t
+take(const simplifier *s, uint32_t *bucket)
+{
+	const mr_dyn *d = &s->d;
+	uint32_t taken = mr_buckets_take(s->queue, bucket),
+		 h = taken == MR_NONE ? taken : s->queue->head[*bucket];
+
+	for (int k = 0; k < 3 && h != MR_NONE; h = s->queue->next[h], k++)
+		if (k == 0) {
+			ask_across(s, h);
+			if (d->twin[h] != MR_NONE)
+				ask_across(s, d->twin[h]);
+		} else if (k == 1) {
+			ask_for_vertex(s, d->v[h]);
+			ask_for_vertex(s, mr_dyn_to(d, h));
+			if (d->twin[h] != MR_NONE)
+				ask_for_face(d, d->twin[h]);
+		} else {
+			ask_for_face(d, h);
+			__builtin_prefetch(&s->queue->next[h]);
+			break;
+		}
+	return taken;
+}
+
 /* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged. */
 static void
 merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
@@ -459,7 +513,7 @@ merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 		uint32_t h, bucket;
 		before = s->merges;
 		fill_queue(s);
-		while (s->faces > s->target && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE) {
+		while (s->faces > s->target && (h = take(s, &bucket)) != MR_NONE) {
 			serve(s, h, bucket);
 			if (!s->kept && s->faces <= s->fine) {
 				keep(s, out, onto, r);
