@@ -858,11 +858,9 @@ typedef struct mr_align_result {
 MR_API mr_status mr_align_frame(mr_ctx *ctx, mr_frame *f, mr_frame *reference, const mr_align_opts *opts,
     mr_align_result *result) MR_WARN_UNUSED;
 
-/*
- * Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.
+/* Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.
  * mr_judge compares the surface that a tool made or moved with what it was.  least: NULL, or of a sequence, at first
- * 0: nothing is judged that has moved by less, and *least becomes twice the largest distance that was.
- */
+ * 0: nothing is judged that has moved by less, and *least becomes twice the largest distance that was. */
 MR_API mr_status mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least) MR_WARN_UNUSED;
 
 /* Compares the columns: what a file gave, or an earlier tool made, that is not there any more. */

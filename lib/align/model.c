@@ -14,10 +14,6 @@ enum { RAW = 30000, DENSE = 10000, AROUND = 24, MOST = 128, SOME = 500, NEAR = 6
  * of half a disc, 0.1 of samples strewn over a whole one. */
 static const double RIM = 0.3;
 
-/* Shares of the area: that may lie in longer faces; that is left where it is looked at along smooth normals.
- */
-static const double COARSE = 0.05, FLAT = 0.93;
-
 /* Noise is looked through by a neighbourhood of this many times its size. */
 static const double THROUGH = 6;
 
@@ -26,47 +22,22 @@ static const double REACH = 6;
 
 /* ---- dense samples ---- */
 
-/* Whether noise has crumpled faces that are small: then vertices, of which each tells the same, are better
- * samples than places on them. */
-static bool
-is_crumpled(const mr_mesh *m, const mr_v3 *normal, double step)
-{
-	double all = 0, coarse = 0, flat = 0;
-
-	for (size_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		mr_v3 area = mr_face_cross(m, f),
-		      around = mr_add(normal[v[0]], mr_add(normal[v[1]], normal[v[2]]));
-		double longest2 = 0;
-		for (uint32_t i = 0; i < 3; i++)
-			longest2 = fmax(longest2, mr_norm2(mr_sub(m->p[v[i]], m->p[v[(i + 1) % 3]])));
-		all += mr_norm(area);
-		coarse += longest2 > step * step ? mr_norm(area) : 0;
-		flat += mr_dot(area, mr_unit(around));
-	}
-	return coarse < COARSE * all && flat < FLAT * all;
-}
-
 /* Points at random or at equal strides, and the normals that are known. */
 static mr_status
 draw(mr_ctx *ctx, mr_align_side side, model *m, mr_v3 **p, mr_v3 **hint, size_t *n)
 {
 	const mr_mesh *of = side.m;
-	mr_v3 *normal = NULL;
 
 	*n = RAW;
-	if (of->nf)
-		mr_vertex_normals(of, normal = MR_NEW(ctx, of->nv, mr_v3));
-	if (of->nf && !is_crumpled(of, normal, 2 * STEP * m->unit) && mr_mesh_area(ctx, of) > 0) {
+	if (of->nf && mr_mesh_area(ctx, of) > 0) {
 		MR_TRY(mr_surface_sample(ctx, of, *n, 1, p, hint));
 	} else {
-		const mr_v3 *known = normal ? normal : side.normal;
 		*n = of->nv < RAW ? of->nv : RAW;
 		*p = MR_NEW(ctx, *n, mr_v3);
-		*hint = known ? MR_NEW(ctx, *n, mr_v3) : NULL;
+		*hint = side.normal ? MR_NEW(ctx, *n, mr_v3) : NULL;
 		mr_at_strides(of->p, of->nv, *n, *p);
-		if (known)
-			mr_at_strides(known, of->nv, *n, *hint);
+		if (side.normal)
+			mr_at_strides(side.normal, of->nv, *n, *hint);
 	}
 	for (size_t i = 0; i < *n; i++)
 		(*p)[i] = mr_mul(1 / m->unit, mr_sub((*p)[i], m->middle));

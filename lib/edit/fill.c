@@ -2,12 +2,12 @@
  * as in Botsch, Kobbelt 2004, section 4, with the surface as constraint. */
 #include "edit/fill.h"
 
-#include "base/disjoint_sets.h"
 #include "edit/deform.h"
 #include "edit/deform_system.h"
 #include "mesh/loops.h"
 #include "op/laplace.h"
 #include "remesh/relax.h"
+#include "space/contact.h"
 #include "space/self_intersect.h"
 
 /* Longer loops are rims of an open surface: the share of its area that a circle of that length has. */
@@ -47,31 +47,21 @@ by_length(const void *a, const void *b)
 	                              : (x->loop > y->loop) - (x->loop < y->loop);
 }
 
-/* The area of each component, at the root of its vertices in *set. */
-static double *
-component_areas(mr_ctx *ctx, const mr_mesh *m, uint32_t **set)
-{
-	double *area = MR_NEW_ZERO(ctx, m->nv, double);
-
-	*set = mr_sets_new(ctx, m->nv);
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		mr_sets_join(*set, mr_he_from(m, h), mr_he_to(m, h));
-	for (size_t f = 0; f < m->nf; f++)
-		area[mr_sets_root(*set, m->t[f].v[0])] += mr_norm(mr_face_cross(m, f)) / 2;
-	return area;
-}
-
 static void
 choose_loops(filler *w)
 {
 	const mr_mesh *m = w->m;
-	uint32_t *set;
-	double *area = component_areas(w->ctx, m, &set);
+	double *area = MR_NEW_ZERO(w->ctx, m->nv, double); /* of each component */
+	uint32_t *component;
+	bool several;
 	double most = w->o->max_length * (w->o->max_length_relative ? mr_mesh_diagonal(m) : 1);
 
+	mr_components_label(w->ctx, m, &component, &several);
+	for (size_t f = 0; f < m->nf; f++)
+		area[component[m->t[f].v[0]]] += mr_norm(mr_face_cross(m, f)) / 2;
 	w->hole = MR_NEW(w->ctx, w->loops.count, hole);
 	for (uint32_t i = 0; i < w->loops.count; i++) {
-		double l = 0, all = area[mr_sets_root(set, mr_he_from(m, w->loops.he[w->loops.start[i]]))];
+		double l = 0, all = area[component[mr_he_from(m, w->loops.he[w->loops.start[i]])]];
 		for (size_t k = w->loops.start[i]; k < w->loops.start[i + 1]; k++)
 			l += mr_dist(m->p[mr_he_from(m, w->loops.he[k])], m->p[mr_he_to(m, w->loops.he[k])]);
 		if (most > 0 ? l <= most : w->o->loops > 0 || l * l <= 4 * MR_PI * OPEN * all)

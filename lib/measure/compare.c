@@ -49,36 +49,6 @@ convex_bound(const mr_mesh *b, uint32_t f, const mr_v3 v[3])
 	return sqrt(most);
 }
 
-/* Sums over some points. */
-typedef struct sums {
-	double min, max, weight, sum, square;
-	size_t count;
-} sums;
-
-static void
-sums_add(sums *s, double d, double weight)
-{
-	s->min = d < s->min ? d : s->min;
-	s->max = d > s->max ? d : s->max;
-	s->weight += weight;
-	s->sum += weight * d;
-	s->square += weight * d * d;
-	s->count++;
-}
-
-static void
-sums_join(sums *s, const sums *t)
-{
-	s->min = t->min < s->min ? t->min : s->min;
-	s->max = t->max > s->max ? t->max : s->max;
-	s->weight += t->weight;
-	s->sum += t->sum;
-	s->square += t->square;
-	s->count += t->count;
-}
-
-static const sums SUMS_NONE = { INFINITY, 0, 0, 0, 0, 0 };
-
 /* What was measured at a point: the distance, the angle between the normals in degrees (NaN: none). */
 typedef struct sample {
 	double distance, angle, weight;
@@ -91,7 +61,6 @@ typedef struct job {
 	bool *used;        /* vertices of a that count; NULL: all */
 	bool alike;        /* the faces of a and b have the same corners by number */
 	double piece_area; /* faces are cut into pieces of at most this */
-	sums *sums;        /* per grain of vertices or faces */
 	sample *samples;   /* of vertex i at i, or of face f from first[f] on */
 	size_t *first;     /* NULL: vertices */
 	double *bound;     /* per face of a */
@@ -114,16 +83,12 @@ static void
 measure_vertices(void *arg, size_t begin, size_t end)
 {
 	job *j = arg;
-	sums s = SUMS_NONE;
 
 	for (size_t i = begin; i < end; i++)
-		if (!j->used || j->used[i]) {
-			double d = stays(j, i) ? 0 : sqrt(mr_bvh_closest(j->bvh, j->a->p[i]).dist2);
-			sums_add(&s, d, 1);
-			if (!j->first)
-				j->samples[i] = (sample){ d, NAN, 1 };
-		}
-	j->sums[begin / GRAIN] = s;
+		if (!j->used || j->used[i])
+			j->samples[i] = (sample){
+				stays(j, i) ? 0 : sqrt(mr_bvh_closest(j->bvh, j->a->p[i]).dist2), NAN, 1
+			};
 }
 
 /* The angle between two normals, in degrees. */
@@ -136,15 +101,16 @@ deviation(mr_v3 a, mr_v3 b)
 /* Measures the centroid of a piece; raises *bound where the piece may reach beyond what is measured so far.
  */
 static void
-measure_piece(const job *j, const mr_v3 v[3], mr_v3 normal, double area, sums *s, sample *at, double *bound)
+measure_piece(
+    const job *j, const mr_v3 v[3], mr_v3 normal, double area, double *most, sample *at, double *bound)
 {
 	mr_v3 c = centroid(v);
 	mr_closest near = mr_bvh_closest(j->bvh, c);
 	double d = sqrt(near.dist2), lipschitz = d + radius(v, c), convex;
 
-	sums_add(s, d, area);
+	*most = fmax(*most, d);
 	*at = (sample){ d, deviation(normal, mr_face_cross(j->b, near.at.face)), area };
-	if (lipschitz <= s->max || lipschitz <= *bound)
+	if (lipschitz <= *most || lipschitz <= *bound)
 		return;
 	convex = convex_bound(j->b, near.at.face, v);
 	*bound = fmax(*bound, fmin(lipschitz, convex));
@@ -161,7 +127,7 @@ parts_of_side(const job *j, size_t f)
 
 /* Cuts the face into side^2 triangles of its own shape and measures each. */
 static void
-measure_face(const job *j, size_t f, sums *s, double *bound)
+measure_face(const job *j, size_t f, double *most, double *bound)
 {
 	const uint32_t *t = j->a->t[f].v;
 	mr_v3 p = j->a->p[t[0]], area2 = mr_face_cross(j->a, f);
@@ -174,10 +140,10 @@ measure_face(const job *j, size_t f, sums *s, double *bound)
 	for (int u = 0; u < side; u++)
 		for (int w = 0; u + w < side; w++) {
 			mr_v3 o = mr_axpy(u, du, mr_axpy(w, dv, p)), x = mr_add(o, du), y = mr_add(o, dv);
-			measure_piece(j, (mr_v3[3]){ o, x, y }, area2, area, s, at++, bound);
+			measure_piece(j, (mr_v3[3]){ o, x, y }, area2, area, most, at++, bound);
 			if (u + w < side - 1)
 				measure_piece(
-				    j, (mr_v3[3]){ x, mr_add(x, dv), y }, area2, area, s, at++, bound);
+				    j, (mr_v3[3]){ x, mr_add(x, dv), y }, area2, area, most, at++, bound);
 		}
 }
 
@@ -185,32 +151,16 @@ static void
 measure_faces(void *arg, size_t begin, size_t end)
 {
 	job *j = arg;
-	sums s = SUMS_NONE;
+	double most = 0;
 
 	for (size_t f = begin; f < end; f++) {
 		const uint32_t *t = j->a->t[f].v;
 		j->bound[f] = 0;
 		if (stays(j, t[0]) && stays(j, t[1]) && stays(j, t[2]))
-			sums_add(
-			    &s, 0, (j->samples[j->first[f]].weight = mr_norm(mr_face_cross(j->a, f)) / 2));
+			j->samples[j->first[f]].weight = mr_norm(mr_face_cross(j->a, f)) / 2;
 		else
-			measure_face(j, f, &s, &j->bound[f]);
+			measure_face(j, f, &most, &j->bound[f]);
 	}
-	j->sums[begin / GRAIN] = s;
-}
-
-/* Runs `body` over count things and adds up, in order. */
-static void
-measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
-{
-	MR_SCOPE(ctx);
-	size_t grains = (count + GRAIN - 1) / GRAIN;
-
-	j->sums = MR_NEW(ctx, grains, sums);
-	mr_parallel(ctx, count, GRAIN, body, j);
-	*total = SUMS_NONE;
-	for (size_t i = 0; i < grains; i++)
-		sums_join(total, &j->sums[i]);
 }
 
 /* ---- branch and bound ---- */
@@ -428,14 +378,24 @@ find_quantiles(sample *s, size_t from_a, size_t n, mr_comparison *c)
 /* ---- one direction ---- */
 
 static mr_distance
-distance_of(const sums *s)
+distance_of(const sample *s, size_t n)
 {
-	return (mr_distance){ .min = s->min,
-		.max = s->max,
-		.max_bound = s->max,
-		.mean = s->sum / s->weight,
-		.rms = sqrt(s->square / s->weight),
-		.samples = s->count };
+	mr_distance d = { .min = INFINITY };
+	double weight = 0, sum = 0, square = 0;
+
+	for (; n > 0; n--, s++) {
+		if (s->weight == 0)
+			continue;
+		d.min = fmin(d.min, s->distance);
+		d.max = d.max_bound = fmax(d.max, s->distance);
+		weight += s->weight;
+		sum += s->weight * s->distance;
+		square += s->weight * s->distance * s->distance;
+		d.samples++;
+	}
+	d.mean = sum / weight;
+	d.rms = sqrt(square / weight);
+	return d;
 }
 
 /* All that was measured: for quantiles. */
@@ -444,23 +404,26 @@ typedef struct samples {
 	size_t n, room;
 } samples;
 
-/* From a mesh with area: its vertices for the extremes, pieces of its faces for the integrals. */
+/* From a mesh with area, n pieces of its faces: with its vertices for the extremes. */
 static void
-measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_distance *d)
+measure_surface(mr_ctx *ctx, job *j, size_t n, const mr_compare_opts *opts, double scale, mr_distance *d)
 {
-	sums vertices, faces;
+	job corners = *j;
+	mr_distance of_vertices;
 
+	corners.samples = MR_NEW_ZERO(ctx, j->a->nv, sample);
+	mr_parallel(ctx, j->a->nv, GRAIN, measure_vertices, &corners);
+	of_vertices = distance_of(corners.samples, j->a->nv);
 	j->bound = MR_NEW(ctx, j->a->nf, double);
-	measure(ctx, j, j->a->nv, measure_vertices, &vertices);
-	measure(ctx, j, j->a->nf, measure_faces, &faces);
-	*d = distance_of(&faces);
-	d->min = fmin(d->min, vertices.min);
-	d->max = fmax(d->max, vertices.max);
+	mr_parallel(ctx, j->a->nf, GRAIN, measure_faces, j);
+	*d = distance_of(j->samples, n);
+	d->min = fmin(d->min, of_vertices.min);
+	d->max = fmax(d->max, of_vertices.max);
 	bound_max(ctx, j, opts, scale, d);
 }
 
 /* Makes room for the samples of every face, in pieces of this area at most, or of every vertex. */
-static void
+static size_t
 begin_samples(mr_ctx *ctx, job *j, samples *all)
 {
 	size_t n = 0;
@@ -476,6 +439,7 @@ begin_samples(mr_ctx *ctx, job *j, samples *all)
 	j->samples = all->s + all->n;
 	memset(j->samples, 0, n * sizeof *j->samples);
 	all->n += n;
+	return n;
 }
 
 /* From a to b, which have faces, of area or not.  alike: their faces have the same corners by number.  scale:
@@ -488,7 +452,7 @@ compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compar
 	double count = opts->samples ? (double)opts->samples : SAMPLES;
 	job j = { .a = a, .b = b, .alike = alike && !opts->vertices_only, .piece_area = area / count };
 
-	begin_samples(ctx, &j, all);
+	size_t n = begin_samples(ctx, &j, all);
 	MR_SCOPE(ctx);
 	mr_bvh *bvh;
 
@@ -497,11 +461,10 @@ compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compar
 	if (a->nf > 0 && !opts->vertices_only)
 		mr_vertices_used(ctx, a->t, a->nf, a->nv, &j.used, &(size_t){ 0 });
 	if (area > 0) {
-		measure_surface(ctx, &j, opts, scale, out);
+		measure_surface(ctx, &j, n, opts, scale, out);
 	} else {
-		sums s;
-		measure(ctx, &j, a->nv, measure_vertices, &s);
-		*out = distance_of(&s);
+		mr_parallel(ctx, a->nv, GRAIN, measure_vertices, &j);
+		*out = distance_of(j.samples, n);
 	}
 }
 

@@ -24,9 +24,8 @@ enum { MR_TEXT_ADVANCE = 6, MR_TEXT_LINE = 10 };
  * pixels high, letters 6 apart. */
 void mr_image_text(mr_image *image, double x, double y, double unit, mr_rgb color, const char *text);
 
-/* The rows of a letter, from the top, bit 4 the leftmost of five columns; rows 7 and 8 hang below the line.
- */
-enum { MR_GLYPH_ROWS = 9 };
-const uint8_t *mr_glyph(char letter);
+/* A letter's nine rows of five bits, from the left and from the top, highest first; rows 7 and 8 hang below
+ * the line. */
+uint64_t mr_glyph(char letter);
 
 #endif

@@ -7,7 +7,7 @@
 #include "render/bake.h"
 
 /* At least so many charts: larger ones are concave, and leave more of the texture empty. */
-enum { CHARTS = 16, COLUMNS = 512, TURNS = 16 };
+enum { CHARTS = 16, COLUMNS = 512 };
 
 typedef struct flat {
 	double x, y;
@@ -106,54 +106,39 @@ turned(flat p, double angle)
 	return (flat){ cos(angle) * p.x - sin(angle) * p.y, sin(angle) * p.x + cos(angle) * p.y };
 }
 
-/* The box of a chart's corners when it is turned; *low: its least corner. */
-static flat
-box_of(const sheet *s, const chart *c, double angle, flat *low)
-{
-	flat high = { -INFINITY, -INFINITY };
-
-	*low = (flat){ INFINITY, INFINITY };
-	for (size_t i = 3 * c->begin; i < 3 * c->end; i++) {
-		flat p = turned(s->at[3 * s->face[i / 3] + i % 3], angle);
-		*low = (flat){ fmin(low->x, p.x), fmin(low->y, p.y) };
-		high = (flat){ fmax(high.x, p.x), fmax(high.y, p.y) };
-	}
-	return (flat){ high.x - low->x, high.y - low->y };
-}
-
-/* Turned as its longest edge is, then so that its box is least, and lies. */
+/* Lying along its principal axis. */
 static void
 flatten(const sheet *s, chart *c)
 {
 	const mr_mesh *m = s->m;
-	mr_v3 x = { 0 }, y, from = m->p[m->t[s->face[c->begin]].v[0]];
-	double best = 0, least = INFINITY;
-	flat low;
+	mr_v3 from = m->p[m->t[s->face[c->begin]].v[0]], middle = { 0 };
+	mr_v3 x = mr_unit(mr_cross(fabs(c->axis.x) < 0.7 ? mr_vec(1, 0, 0) : mr_vec(0, 1, 0), c->axis));
+	mr_v3 y = mr_cross(c->axis, x);
+	double xx = 0, xy = 0, yy = 0, angle;
+	flat low = { INFINITY, INFINITY }, high = { -INFINITY, -INFINITY };
 
+	for (size_t i = 3 * c->begin; i < 3 * c->end; i++)
+		middle = mr_axpy(1 / (3.0 * (double)(c->end - c->begin)),
+		    mr_sub(m->p[m->t[s->face[i / 3]].v[i % 3]], from), middle);
 	for (size_t i = 3 * c->begin; i < 3 * c->end; i++) {
-		uint32_t h = 3 * s->face[i / 3] + (uint32_t)(i % 3);
-		mr_v3 e = mr_sub(m->p[mr_he_to(m, h)], m->p[mr_he_from(m, h)]);
-		x = mr_norm2(e) > mr_norm2(x) ? e : x;
+		mr_v3 p = mr_sub(mr_sub(m->p[m->t[s->face[i / 3]].v[i % 3]], from), middle);
+		flat *at = &s->at[3 * s->face[i / 3] + i % 3];
+		*at = (flat){ mr_dot(p, x), mr_dot(p, y) };
+		xx += at->x * at->x;
+		xy += at->x * at->y;
+		yy += at->y * at->y;
 	}
-	x = mr_unit(mr_axpy(-mr_dot(x, c->axis), c->axis, x));
-	y = mr_cross(c->axis, x);
+	angle = -0.5 * atan2(2 * xy, xx - yy);
 	for (size_t i = 3 * c->begin; i < 3 * c->end; i++) {
-		uint32_t h = 3 * s->face[i / 3] + (uint32_t)(i % 3);
-		mr_v3 p = mr_sub(m->p[mr_he_from(m, h)], from);
-		s->at[h] = (flat){ mr_dot(p, x), mr_dot(p, y) };
+		flat *at = &s->at[3 * s->face[i / 3] + i % 3];
+		*at = turned(*at, angle);
+		low = (flat){ fmin(low.x, at->x), fmin(low.y, at->y) };
+		high = (flat){ fmax(high.x, at->x), fmax(high.y, at->y) };
 	}
-	for (int k = 0; k < TURNS; k++) {
-		flat size = box_of(s, c, MR_PI * k / TURNS, &low);
-		if (size.x >= size.y && size.x * size.y < least) {
-			least = size.x * size.y;
-			best = MR_PI * k / TURNS;
-		}
-	}
-	c->size = box_of(s, c, best, &low);
+	c->size = (flat){ high.x - low.x, high.y - low.y };
 	for (size_t i = 3 * c->begin; i < 3 * c->end; i++) {
-		flat *p = &s->at[3 * s->face[i / 3] + i % 3];
-		*p = turned(*p, best);
-		*p = (flat){ p->x - low.x, p->y - low.y };
+		flat *at = &s->at[3 * s->face[i / 3] + i % 3];
+		*at = (flat){ at->x - low.x, at->y - low.y };
 	}
 }
 
