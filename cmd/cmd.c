@@ -78,8 +78,10 @@ clear_progress(cmd *c)
 
 /* A sentence, with the frame in front where there is one. */
 static void
-say_of_frame(cmd *c, const char *sentence)
+say_of_frame(void *user, const char *sentence)
 {
+	cmd *c = user;
+
 	clear_progress(c);
 	if (c->state->frame_name)
 		say(c, "frame %llu (%s): %s", (unsigned long long)c->frame, c->state->frame_name, sentence);
@@ -174,12 +176,6 @@ fail_system(cmd *c, const char *what)
 }
 
 /* Remarks and progress */
-
-static void
-show_note(void *user, const char *text)
-{
-	say_of_frame(user, text);
-}
 
 static void
 show_warning(void *user, const char *text)
@@ -446,16 +442,19 @@ names_file(const cmd *c)
 
 /* The output as a descriptor: stdout, or -o. */
 static void
-open_output(cmd *c)
+open_output(cmd *c, place_use use)
 {
 	struct cmd_state *s = c->state;
 
 	s->out = STDOUT_FILENO;
 	if (!names_file(c))
 		return;
+	try(c, place_check_name(&c->ctx, "-o", c->output, use));
 	if (!*c->output)
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--output: a file without a name"));
+	s->opens_stream = use == PLACE_STREAM;
 	try(c, mr_outfile_open(&c->ctx, c->output, &s->output_file));
+	s->opens_stream = false;
 	s->out = s->output_file.fd;
 }
 
@@ -464,11 +463,7 @@ open_writer(cmd *c)
 {
 	struct cmd_state *s = c->state;
 
-	if (names_file(c))
-		try(c, place_check_name(&c->ctx, "-o", c->output, PLACE_STREAM));
-	s->opens_stream = true;
-	open_output(c);
-	s->opens_stream = false;
+	open_output(c, PLACE_STREAM);
 	if (is_terminal(s->out))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE,
 			   "a stream is binary and is not written to a terminal: pipe it on, or name a file "
@@ -491,9 +486,7 @@ open_copy(cmd *c, int fd, const char *path)
 static void
 open_text(cmd *c)
 {
-	if (names_file(c))
-		try(c, place_check_name(&c->ctx, "-o", c->output, PLACE_WRITE));
-	open_output(c);
+	open_output(c, PLACE_WRITE);
 	c->state->text = c->state->out == STDOUT_FILENO ? stdout : open_copy(c, c->state->out, c->output);
 }
 
@@ -831,7 +824,7 @@ static void
 listen_to(cmd *c)
 {
 	c->ctx.listener = (mr_listener){ .found = c->quiet && !c->state->stats_path ? NULL : collect_finding,
-		.note = c->verbose ? show_note : NULL,
+		.note = c->verbose ? say_of_frame : NULL,
 		.progress = !c->quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
 		.user = c };
 	c->ctx.unfinished = signals_unfinished;

@@ -95,9 +95,8 @@ mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN
  * passes. */
 mr_status cmd_layer_name(cmd *c, const char *option, const char *name) MR_WARN_UNUSED;
 
-/* For the prepare of a sink that names its output, `what`: by the last operand, or by the first where that
- * ends in `suffix`; from then on it is the first.  MR_EUSAGE where it does not end so (NULL: in anything, and
- * a terminal will do). */
+/* For the prepare of a sink that names its output, `what`, by the last operand, or by the first if that ends
+ * in `suffix`; it becomes the first.  MR_EUSAGE where neither ends so; NULL: any does, and a terminal too. */
 mr_status cmd_output_name(cmd *c, const char *what, const char *suffix) MR_WARN_UNUSED;
 
 /* For prepare, of a tool with operands of its own: reads that instead of stdin.  MR_EUSAGE beside -i. */

@@ -1,6 +1,5 @@
-/* findings.h -- what a command says of findings: one table of sentences and remedies, in findings.c. A
- * finding is said once: not where an earlier tool of the pipe has said it, and in a sequence again only when
- * its count has doubled.  What was found goes along with the frame, in its column `findings`. */
+/* findings.h -- what a command says of findings, by one table.  A finding is said once in a pipe, and in a
+ * sequence again when its count has doubled; it travels with the frame in its column `findings`. */
 #ifndef CMD_FINDINGS_H
 #define CMD_FINDINGS_H
 

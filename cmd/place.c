@@ -14,18 +14,6 @@ is_device(const struct stat *s)
 	return S_ISCHR(s->st_mode) || S_ISBLK(s->st_mode);
 }
 
-/* The folder that a name stands in; false where there is none such. */
-static bool
-folder_of(const char *name, struct stat *s)
-{
-	const char *slash = strrchr(name, '/');
-	char *folder = slash ? strndup(name, (size_t)(slash - name) + 1) : NULL;
-	bool good = (folder || !slash) && stat(folder ? folder : ".", s) == 0;
-
-	free(folder);
-	return good;
-}
-
 bool
 place_is(int fd, const char *name)
 {
@@ -38,20 +26,21 @@ place_is(int fd, const char *name)
 /* Two names of a file: what is there, and its place, in which there may be nothing yet; empty where there is
  * none. */
 typedef struct keys {
-	char there[64], place[4200];
+	const char *there, *place;
 } keys;
 
 static void
-find_keys(const char *path, keys *k)
+find_keys(mr_ctx *ctx, const char *path, keys *k)
 {
+	const char *name = mr_file_name(path);
 	struct stat s;
 
 	if (stat(path, &s) == 0 && !is_device(&s))
-		snprintf(k->there, sizeof k->there, "%llu:%llu", (unsigned long long)s.st_dev,
-		    (unsigned long long)s.st_ino);
-	if (folder_of(path, &s))
-		snprintf(k->place, sizeof k->place, "%llu:%llu/%s", (unsigned long long)s.st_dev,
-		    (unsigned long long)s.st_ino, mr_file_name(path));
+		k->there = mr_format(
+		    ctx, "%llu:%llu", (unsigned long long)s.st_dev, (unsigned long long)s.st_ino);
+	if (stat(name > path ? mr_format(ctx, "%.*s", (int)(name - path), path) : ".", &s) == 0)
+		k->place = mr_format(
+		    ctx, "%llu:%llu/%s", (unsigned long long)s.st_dev, (unsigned long long)s.st_ino, name);
 }
 
 static void
@@ -100,11 +89,11 @@ place_claim(mr_ctx *ctx, place_guard *g, const char *path, place_use use)
 {
 	bool writes = use != PLACE_READ;
 	content there = writes ? content_of(path) : NOTHING;
-	keys k = { 0 };
+	keys k = { "", "" };
 
 	if (!writes && place_is_dash(path))
 		return MR_OK;
-	find_keys(path, &k);
+	find_keys(ctx, path, &k);
 	if (there == STREAM && use == PLACE_WRITE)
 		return mr_fail(ctx, MR_EUSAGE, "%s: that file is a stream, and would be lost", path);
 	if (there == OTHER && use == PLACE_STREAM)

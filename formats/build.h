@@ -1,6 +1,5 @@
-/* build.h -- what readers gather a model in: faces of any size, groups, attributes of corners. Contract: the
- * reader checks indices, since it knows the line or the byte; the builder triangulates and makes the arrays
- * of the model, in the arena. Layer rule: formats. */
+/* build.h -- what readers gather a model in: faces of any size, groups, attributes of corners.  The reader
+ * checks indices, since it knows the line or the byte; the builder triangulates.  Layer rule: formats. */
 #ifndef MR_BUILD_H
 #define MR_BUILD_H
 
@@ -42,9 +41,8 @@ typedef struct mr_builder {
 /* Room for so many triangles, to spare growing. */
 mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;
 
-/* A face of n corners, whose indices are below nv; fewer than three are counted and left out. uv, vn: places
- * of the corners' texture coordinates and normals in the arrays of the builder, MR_NONE of a corner without;
- * NULL where no corner has one. */
+/* A face of n corners, of vertices below nv; fewer than three are counted and left out.  uv, vn: places of
+ * the corners' values in the builder's arrays, MR_NONE of one without; NULL where none has any. */
 void mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n);
 
 /* The faces to come are marked with this name, cleaned and without blanks around it; `own`: it is another

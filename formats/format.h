@@ -1,6 +1,5 @@
-/* format.h -- the table of formats, and what each one's file gives to it. Contract: `sniff` looks at bytes
- * only; `read` fails with "line N: ..." or "byte N: ...", before which mr_model_read puts the file's name;
- * `write` leaves failures to the sink. Layer rule: formats. */
+/* format.h -- the table of formats.  `sniff` looks at bytes only; `read` fails with "line N: ..." or "byte N:
+ * ..."; `write` leaves failures to the sink.  Layer rule: formats. */
 #ifndef MR_FORMAT_H
 #define MR_FORMAT_H
 

@@ -22,9 +22,8 @@ typedef struct mr_property {
 	const void *data; /* nv or nf */
 } mr_property;
 
-/* A mesh, or where nf is 0 a cloud of points.  What the file does not have is NULL.  Texture coordinates are
- * in `texcoord`, where every corner of a face has some and those of a vertex agree, else in
- * `corner_texcoord`; normals likewise. */
+/* A mesh, or where nf is 0 a cloud; NULL is what the file has not.  Texture coordinates and normals are of
+ * vertices where all the corners of each have the same, else of corners. */
 typedef struct mr_model {
 	const char *path;              /* of the file that is read */
 	const mr_v3 *p;                /* nv */
@@ -46,15 +45,12 @@ typedef struct mr_model {
 	mr_import_result counts; /* of a model that was read */
 } mr_model;
 
-/* Reads a file ("-": stdin) into the arena.  `format` is a name of a format, or NULL: by the bytes and, where
- * no format knows them, by the suffix.  Vertices of STL are joined where equal; polygons are triangulated;
- * isolated vertices, degenerate, duplicate and non-manifold faces are kept.  MR_EMESH for a model without
- * vertices. */
+/* Reads a file ("-": stdin) into the arena.  `format` NULL: by the bytes, or else the suffix.  Equal vertices
+ * of STL are joined, polygons triangulated; poor faces stay.  MR_EMESH where there is no vertex. */
 mr_status mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m) MR_WARN_UNUSED;
 
-/* Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses. A regular file
- * is seen whole or not at all (base/outfile.h); where `held` is not NULL it is the caller's to keep or to
- * drop. */
+/* Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.  It is seen
+ * whole or not at all; where `held` is not NULL it is the caller's to keep or to drop. */
 mr_status mr_model_write(
     mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_outfile *held) MR_WARN_UNUSED;
 

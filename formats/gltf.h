@@ -1,8 +1,5 @@
-/* gltf.h -- a glTF 2.0 document (Khronos, "glTF 2.0 Specification", 2021): its JSON, buffers and accessors;
- * and the pieces of one that is written. Contract: what an index of the document names is there, what a
- * buffer view or an accessor covers lies inside its buffer, and every failure is MR_EFORMAT with a sentence
- * that names the thing ("accessor 3 ..."). Buffers are looked at when something needs them: one whose file is
- * missing is no fault until then. Layer rule: formats; jansson only behind this header. */
+/* gltf.h -- a glTF 2.0 document: JSON, buffers, which are looked at when they are needed, and accessors.
+ * Indices and ranges are checked, and failures name the thing.  Layer rule: formats; jansson only here. */
 #ifndef MR_GLTF_H
 #define MR_GLTF_H
 

@@ -1,6 +1,5 @@
-/* glTF 2.0, read: the meshes of the scene as one model.  What glTF must repeat where a seam of normals or
- * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, and
- * what their corners have is the corners'. */
+/* glTF 2.0, read (Khronos 2021): the meshes of the scene as one model.  Vertices that the format repeats at
+ * seams are joined again within a mesh, and what their corners have is the corners'. */
 #include "formats/gltf.h"
 #include "formats/materials.h"
 #include "mesh/repair.h"
@@ -189,7 +188,6 @@ typedef struct part {
 	size_t mode, corners;
 	size_t first, count; /* its vertices */
 	bool own;            /* that no part before it has read */
-	bool joined;         /* with others of its places */
 } part;
 
 typedef struct reader {
@@ -233,32 +231,11 @@ apply_to_normal(const mr_affine *a, mr_v3 n)
 	return determinant(a) < 0 ? mr_mul(-1, turned) : turned;
 }
 
-static void
-place_positions(reader *r, const part *p, double *x)
-{
-	mr_v3 *position = (mr_v3 *)(void *)x;
-
-	(void)r;
-	for (size_t i = 0; i < p->count && !mr_is_identity(&p->of->map); i++)
-		position[i] = mr_apply(&p->of->map, position[i]);
-}
-
-static void
-turn_normals(reader *r, const part *p, double *x)
-{
-	mr_v3 *normal = (mr_v3 *)(void *)x;
-
-	(void)r;
-	for (size_t i = 0; i < p->count && !mr_is_identity(&p->of->map); i++)
-		if (mr_finite(normal[i]))
-			normal[i] = apply_to_normal(&p->of->map, normal[i]);
-}
-
 /* v runs down the picture in glTF, up in OBJ. */
 static void
-turn_texcoords(reader *r, const part *p, double *uv)
+turn_texcoords(reader *r, size_t n, double *uv)
 {
-	for (size_t i = 0; i < p->count; i++) {
+	for (size_t i = 0; i < n; i++) {
 		uv[2 * i + 1] = 1 - uv[2 * i + 1];
 		if (isfinite(uv[2 * i]) && isfinite(uv[2 * i + 1]))
 			continue;
@@ -267,13 +244,30 @@ turn_texcoords(reader *r, const part *p, double *uv)
 	}
 }
 
+/* Values of attribute k as the model has them. */
+static void
+change(reader *r, const part *p, size_t k, double *x)
+{
+	const mr_affine *map = &p->of->map;
+	mr_v3 *v = (mr_v3 *)(void *)x;
+
+	if (k == TEXCOORD)
+		turn_texcoords(r, p->count, x);
+	if (k >= TEXCOORD || mr_is_identity(map))
+		return;
+	for (size_t i = 0; i < p->count; i++)
+		if (k == POSITION)
+			v[i] = mr_apply(map, v[i]);
+		else if (mr_finite(v[i]))
+			v[i] = apply_to_normal(map, v[i]);
+}
+
 static const struct {
 	const char *name;
 	size_t width, least; /* least: the numbers that an accessor must have of it */
 	double none;         /* of vertices without */
-	void (*change)(reader *r, const part *p, double *x);
-} attributes[ATTRIBUTES] = { { "POSITION", 3, 3, 0, place_positions }, { "NORMAL", 3, 3, 0, turn_normals },
-	{ "TEXCOORD_0", 2, 2, (double)NAN, turn_texcoords }, { "COLOR_0", 4, 3, 1, NULL } };
+} attributes[ATTRIBUTES] = { { "POSITION", 3, 3, 0 }, { "NORMAL", 3, 3, 0 },
+	{ "TEXCOORD_0", 2, 2, (double)NAN }, { "COLOR_0", 4, 3, 1 } };
 
 /* ---- the primitives of the scene ---- */
 
@@ -398,8 +392,7 @@ read_column(reader *r, const part *p, size_t k)
 		return MR_OK;
 	MR_TRY(mr_accessor_open(&r->g, number, &a));
 	mr_accessor_reals(&a, attributes[k].width, x);
-	if (attributes[k].change)
-		attributes[k].change(r, p, x);
+	change(r, p, k, x);
 	return MR_OK;
 }
 

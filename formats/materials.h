@@ -1,6 +1,5 @@
-/* materials.h -- what a model's materials look like, by the files of materials that its OBJ named. Contract:
- * only regular files below the folder that the caller names are opened, whatever the model says: a path that
- * leads elsewhere is taken for its last name. Layer rule: formats. */
+/* materials.h -- what materials look like, by the files that an OBJ named.  Only regular files below the
+ * caller's folder are opened, by a path's last name if it leads elsewhere.  Layer rule: formats. */
 #ifndef MR_MATERIALS_H
 #define MR_MATERIALS_H
 

@@ -1,6 +1,5 @@
-/* Wavefront OBJ.  tinyobj reads faces, through obj_shim; this file reads v, vt and vn lines, whose numbers
- * must be exact, and names, which may have blanks in them, and checks each face line before tinyobj sees it:
- * tinyobj takes any word for an index and lets indices wrap. */
+/* Wavefront OBJ.  tinyobj reads faces, through obj_shim, once their line is checked: it takes any word for an
+ * index.  v, vt and vn lines, whose numbers must be exact, and names with blanks are read here. */
 #include "formats/format.h"
 #include "formats/obj_shim.h"
 
@@ -327,6 +326,7 @@ next_for_tinyobj(obj *o, const char **begin, const char **end)
 	mr_scan line;
 	bool pass = false;
 
+	MR_ENTER(o->ctx);
 	while (!pass) {
 		if (!next_line(o, &line))
 			return MR_END;
@@ -337,20 +337,13 @@ next_for_tinyobj(obj *o, const char **begin, const char **end)
 	return MR_OK;
 }
 
-static mr_status
-enter_line(obj *o, const char **begin, const char **end)
-{
-	MR_ENTER(o->ctx);
-	return next_for_tinyobj(o, begin, end);
-}
-
 static bool
 line_call(void *user, const char **begin, const char **end)
 {
 	obj *o = user;
 
 	if (o->status == MR_OK)
-		o->status = enter_line(o, begin, end);
+		o->status = next_for_tinyobj(o, begin, end);
 	return o->status == MR_OK;
 }
 

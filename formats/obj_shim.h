@@ -1,6 +1,5 @@
-/* obj_shim.h -- tinyobj's callback reader, seen from C. tinyobj splits the lines of faces into corners; obj.c
- * gives it one checked line at a time and reads all else itself: numbers must be exact, and tinyobj's names
- * end at the first blank. Layer rule: formats. */
+/* obj_shim.h -- tinyobj's callback reader, seen from C: it splits lines of faces into corners, one checked
+ * line at a time.  Layer rule: formats. */
 #ifndef MR_OBJ_SHIM_H
 #define MR_OBJ_SHIM_H
 
@@ -16,8 +15,8 @@ typedef struct mr_obj_corner {
 } mr_obj_corner;
 
 typedef struct mr_obj_calls {
-	bool (*line)(void *user, const char **begin,
-	    const char **end); /* the next line with its newline; false at the end */
+	/* The next line with its newline; false at the end. */
+	bool (*line)(void *user, const char **begin, const char **end);
 	void (*face)(void *user, const mr_obj_corner *corner, int n);
 	void *user;
 } mr_obj_calls;

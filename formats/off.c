@@ -1,6 +1,5 @@
-/* Object File Format (Geomview): the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, says what a vertex has
- * besides its position; -f off reads a file without it, too. Binary files are little-endian, as the Polygon
- * Mesh Processing library writes them. */
+/* Object File Format (Geomview): the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, says what a vertex has;
+ * -f off reads a file without it, too.  Binary files are little-endian, as of PMP. */
 #include "formats/format.h"
 
 typedef struct off {

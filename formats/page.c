@@ -60,47 +60,34 @@ is_posable(const mr_frame *f, const char *layers)
 	       mr_layer_has(f, "mesh", "detail_height") && mr_layer_has(f, "base", "response");
 }
 
+/* Whether it is that column, "mesh.position". */
 static bool
-is_posing(const mr_column *c)
+is_column(const mr_column *c, const char *name)
 {
-	char name[MR_LAYER_MAX + MR_COLUMN_MAX + 2];
+	size_t n = strlen(c->layer);
 
-	snprintf(name, sizeof name, "%s.%s", c->layer, c->name);
-	return mr_is_one_of(name, posing);
+	return !strncmp(name, c->layer, n) && name[n] == '.' && !strcmp(name + n + 1, c->name);
 }
 
-/* Of displacement, the page takes what its vertices have; and the mesh that they are, it makes itself. */
-static bool
-is_of_displaced(const mr_column *c)
-{
-	return !strcmp(c->layer, "displacement") && c->shape.element == 'v' && c->shape.type != 't' &&
-	       c->shape.components <= 4;
-}
-
-static bool
-is_made(const mr_column *c, const displaced *d)
-{
-	return d->is_mesh && !strcmp(c->layer, "mesh") &&
-	       (!strcmp(c->name, "position") || !strcmp(c->name, "triangles"));
-}
-
-/* Places, and up to four numbers that can give colours; a surface's normals the page makes from its
- * triangles. */
+/* Places, and up to four numbers that can give colours.  A surface's normals, and the mesh that control and
+ * displacement are, the page makes itself. */
 static bool
 is_shown(const mr_frame *f, const mr_column *c, const char *layers, const displaced *d)
 {
+	static const char *const of_frame[] = { "history", "latest", "findings", NULL };
 	bool surface = mr_layer_has(f, c->layer, "triangles");
 	bool control = d->there && !strcmp(c->layer, "control");
+	bool made = d->is_mesh && (is_column(c, "mesh.position") || is_column(c, "mesh.triangles"));
 
 	if (!*c->layer)
-		return !strcmp(c->name, "history") || !strcmp(c->name, "latest") ||
-		       !strcmp(c->name, "findings");
-	if (is_posing(c))
-		return is_posable(f, layers);
-	if (d->there && is_of_displaced(c))
+		return mr_is_one_of(c->name, of_frame);
+	for (const char *const *name = posing; *name; name++)
+		if (is_column(c, *name))
+			return is_posable(f, layers);
+	if (d->there && !strcmp(c->layer, "displacement") && c->shape.element == 'v' &&
+	    c->shape.type != 't' && c->shape.components <= 4)
 		return true;
-	if (is_made(c, d) || !(control || is_listed(c->layer, layers)) ||
-	    !mr_layer_has(f, c->layer, "position"))
+	if (made || !(control || is_listed(c->layer, layers)) || !mr_layer_has(f, c->layer, "position"))
 		return false;
 	if (c->shape.element == '-' || c->shape.type == 't')
 		return mr_is_one_of(c->name, texts);
@@ -109,9 +96,8 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const displa
 	return c->shape.components <= 4 && !mr_is_one_of(c->name, unseen);
 }
 
-/* How the page stores a column: a value is origin + step times a whole number.  Step 0 stores whole numbers.
- * The page keeps the first `components` of a row and works out the rest.  Rows of more than three values are
- * stored from 0; their origin is only passed on. */
+/* How the page stores a column: origin + step times a whole number; step 0 stores whole numbers.  It keeps
+ * `components` of a row; rows of more than three values are stored from 0, and pass their origin on. */
 typedef struct whole_steps {
 	double step, origin[3];
 	uint8_t components;
@@ -158,10 +144,8 @@ sum_steps(const mr_column *c, const whole_steps *s, uint32_t *sums)
 	}
 }
 
-/* Puts the column, decoded, as whole numbers of which the sums over the rows are stored: the packing of
- * streams takes differences, which then are steps without a sign, the small ones, of either direction, with
- * small numbers.  Steps that are not within 31 bits of the origin are not to be asked for.  A line in `notes`
- * tells the page. */
+/* Puts the column as sums over the rows of steps without a sign, small ones with small numbers: packing takes
+ * their differences.  Steps are within 31 bits of the origin.  A line in `notes` tells the page. */
 static mr_status
 put_steps(mr_ctx *ctx, mr_frame *to, const mr_column *c, const whole_steps *s, mr_text *notes)
 {
@@ -191,12 +175,6 @@ steps_of_places(mr_box box)
 		{ rint(box.min.x / step) * step, rint(box.min.y / step) * step,
 		    rint(box.min.z / step) * step },
 		3 };
-}
-
-static bool
-is_place(const mr_column *c)
-{
-	return !strcmp(c->name, "position") || (!strcmp(c->layer, "base") && !strcmp(c->name, "encoded"));
 }
 
 /* Puts vertices that no face has, which are not drawn, into the box of the rest, where they make no step
@@ -241,9 +219,8 @@ steps_of_column(const mr_column *c, double least)
 	return (whole_steps){ step_of(most), { 0 }, components };
 }
 
-/* A response to maps about the origin is as large as the model is far from there; about the middle of what it
- * poses it has the digits that matter: w_k - c_k w_3 in place of w_k, with T c - c in place of T's
- * translation. */
+/* A response to maps about the origin grows with the distance from there; about the middle of what it poses
+ * it keeps its digits: w_k - c_k w_3 in place of w_k, with T c - c in place of T's translation. */
 static mr_status
 centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 {
@@ -264,9 +241,8 @@ centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 	return MR_OK;
 }
 
-/* A browser draws with floats.  Positions are rounded by the model's extent, not by their distance from the
- * origin, other numbers by the largest.  The handles' maps, which are few, are those of the stream, and so
- * are columns with what is no number. */
+/* A browser draws with floats.  Positions are rounded by the model's extent, other numbers by the largest;
+ * the handles' maps, and columns with what is no number, stay as they are. */
 static mr_status
 take_column(
     mr_ctx *ctx, mr_frame *from, const mr_column *column, const displaced *d, mr_frame *to, mr_text *notes)
@@ -280,11 +256,10 @@ take_column(
 	MR_TRY(mr_column_decode(ctx, &c));
 	if (!strcmp(c.name, "response"))
 		MR_TRY(centre_response(ctx, from, &c, centre));
-	if (is_place(&c))
+	if (!strcmp(c.name, "position") || is_column(&c, "base.encoded"))
 		MR_TRY(clamp_places(ctx, from, &c, &steps));
 	else
-		steps = steps_of_column(
-		    &c, !strcmp(c.layer, "displacement") && !strcmp(c.name, "height") ? d->extent : 0);
+		steps = steps_of_column(&c, is_column(&c, "displacement.height") ? d->extent : 0);
 	if (!strcmp(c.name, "response"))
 		memcpy(steps.origin, centre, sizeof centre);
 	return steps.components ? put_steps(ctx, to, &c, &steps, notes) : mr_frame_pass(ctx, to, &c);
@@ -349,15 +324,6 @@ get_displaced(mr_ctx *ctx, mr_frame *f, displaced *d)
 	return MR_OK;
 }
 
-/* What is drawn must be a surface or points as any tool takes them: the page checks nothing. */
-static mr_status
-check_layer(mr_ctx *ctx, mr_frame *f, const char *layer)
-{
-	mr_mesh m;
-
-	return mr_layer_surface_or_points(ctx, f, layer, &m);
-}
-
 /* The displaced surface that is asked for, or, without a list, the one that is there; mesh is stored where it
  * is to be posed, or wears pictures. */
 static mr_status
@@ -373,33 +339,24 @@ find_displaced(mr_ctx *ctx, const mr_page *page, mr_frame *f, const char *list, 
 	return MR_OK;
 }
 
-/* Whether what was worked on last is the surface that the page makes. */
-static mr_status
-is_displaced_latest(mr_ctx *ctx, mr_frame *f, const displaced *d, bool *is)
-{
-	const char *latest;
-
-	MR_TRY(mr_layer_latest(ctx, f, &latest));
-	*is = d->there && latest && (!strcmp(latest, "displacement") || !strcmp(latest, "control"));
-	return MR_OK;
-}
-
+/* What is drawn must be a surface or points as any tool takes them: the page checks nothing. */
 static mr_status
 check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const displaced *d)
 {
-	bool is_displaced;
+	const char *latest;
+	mr_mesh m;
 
-	MR_TRY(is_displaced_latest(ctx, f, d, &is_displaced));
-	if (!list && !is_displaced)
+	MR_TRY(mr_layer_latest(ctx, f, &latest));
+	if (!list && !(d->there && latest && (!strcmp(latest, "displacement") || !strcmp(latest, "control"))))
 		MR_TRY(mr_layer_finished_or_warn(ctx, f));
 	for (size_t i = 0; !list && i < f->count; i++)
 		if (*f->columns[i].layer && !strcmp(f->columns[i].name, "position"))
-			MR_TRY(check_layer(ctx, f, f->columns[i].layer));
+			MR_TRY(mr_layer_surface_or_points(ctx, f, f->columns[i].layer, &m));
 	while (list) {
 		size_t n = strcspn(list, ",");
 		char *layer = mr_format(ctx, "%.*s", (int)n, list);
 		if (strcmp(layer, "displacement") != 0) /* that was checked when it was found */
-			MR_TRY(check_layer(ctx, f, layer));
+			MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
 		list = list[n] ? list + n + 1 : NULL;
 	}
 	return MR_OK;
@@ -424,8 +381,7 @@ static const char *
 surface_name(const mr_frame *f, const bool *shown)
 {
 	for (size_t i = 0; i < f->count; i++)
-		if (shown[i] && !strcmp(f->columns[i].layer, "mesh") &&
-		    !strcmp(f->columns[i].name, "position"))
+		if (shown[i] && is_column(&f->columns[i], "mesh.position"))
 			return "displacement";
 	return "mesh";
 }

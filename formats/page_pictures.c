@@ -1,6 +1,5 @@
-/* Pictures go into the page as the bytes that their files have, which a browser decodes; but for what is said
- * in them about the picture: cameras and places, which are nobody's business, and turns and colour profiles,
- * which mr-render does not follow and a browser would. */
+/* Pictures go into the page as the bytes of their files, but for what is said about them: cameras and places
+ * are nobody's business, and turns and colour profiles mr-render does not follow. */
 #include "formats/page_pictures.h"
 
 #include "formats/image.h"

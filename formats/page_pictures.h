@@ -27,9 +27,8 @@ typedef struct mr_page_pictures {
 /* Whether the layer has what it needs to wear what is asked for. */
 bool mr_page_can_wear(const mr_page_pictures *p, const mr_frame *f, const char *layer);
 
-/* Reads what the layer wears, each file once, without what only tells about the picture.  Lines in `notes`
- * tell the page; *coordinates: the name of the column that places it, NULL where there is none.  MR_EFORMAT
- * for a texture that is no picture; a material's is warned of. */
+/* Reads what the layer wears, each file once.  Lines in `notes` tell the page; *coordinates: the column that
+ * places it, or NULL.  MR_EFORMAT: a texture is no picture; of a material that is a finding. */
 mr_status mr_page_wear(mr_ctx *ctx, mr_page_pictures *p, mr_frame *f, const char *layer, mr_text *notes,
     const char **coordinates) MR_WARN_UNUSED;
 

@@ -6,9 +6,8 @@
 #include "formats/model.h"
 #include "render/gallery.h"
 
-/* mr_gallery_add, and paints the panels that no column colours: with opts->texture, or with what the
- * materials of the layer look like by the files in opts->materials.  What did not change since the frame
- * before is shared. MR_EMISSING where one of them is asked for and no panel is coloured. */
+/* mr_gallery_add, and paints the panels that no column colours by opts->texture or the materials in
+ * opts->materials; what stays the same is shared.  MR_EMISSING where no panel can be painted. */
 mr_status mr_gallery_add_painted(
     mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts) MR_WARN_UNUSED;
 

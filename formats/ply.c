@@ -1,6 +1,5 @@
-/* Stanford PLY, read: G. Turk, The PLY polygon file format, 1994.  Text and both byte orders, properties of
- * any type in any order, lists, triangle strips.  Numbers of vertices and faces that are nothing to us are
- * kept under their names; other lists and elements are passed over. */
+/* Stanford PLY, read (G. Turk, 1994): text and both byte orders, any properties, lists, triangle strips.
+ * Numbers that are nothing to us are kept under their names; other lists and elements are left out. */
 #include "formats/format.h"
 
 typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
@@ -199,23 +198,15 @@ choose_vertex_properties(ply *f, const element *e)
 }
 
 static void
-choose_face_properties(ply *f, element *e)
-{
-	for (size_t i = 0; i < e->properties; i++) {
-		property *p = &e->property[i];
-		if (p->role == NONE && !p->list)
-			p->kept = mr_build_property(&f->rows.b, p->name, types[p->value].name, 'f');
-	}
-}
-
-static void
 choose_properties(ply *f)
 {
-	for (size_t i = 0; i < f->elements; i++)
-		if (f->element[i].kind == VERTEX)
-			choose_vertex_properties(f, &f->element[i]);
-		else if (f->element[i].kind == FACE)
-			choose_face_properties(f, &f->element[i]);
+	for (element *e = f->element; e < f->element + f->elements; e++) {
+		if (e->kind == VERTEX)
+			choose_vertex_properties(f, e);
+		for (property *p = e->property; e->kind == FACE && p < e->property + e->properties; p++)
+			if (!p->list)
+				p->kept = mr_build_property(&f->rows.b, p->name, types[p->value].name, 'f');
+	}
 }
 
 static mr_status

@@ -115,26 +115,16 @@ mr_status
 mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image)
 {
 	return write_picture(ctx, path,
-	    &(picture){ .pixel = (const unsigned char *)image->pixel,
-		.width = image->width,
-		.height = image->height,
-		.row = image->width * sizeof *image->pixel,
-		.depth = 8,
-		.color = PNG_COLOR_TYPE_RGB });
+	    &(picture){ (const unsigned char *)image->pixel, image->width, image->height,
+		image->width * sizeof *image->pixel, 8, PNG_COLOR_TYPE_RGB, NULL, 0 });
 }
 
 mr_status
 mr_png_write_gray(mr_ctx *ctx, const char *path, const mr_gray *gray)
 {
 	return write_picture(ctx, path,
-	    &(picture){ .pixel = (const unsigned char *)gray->pixel,
-		.width = gray->width,
-		.height = gray->height,
-		.row = gray->width * sizeof *gray->pixel,
-		.depth = 16,
-		.color = PNG_COLOR_TYPE_GRAY,
-		.text = gray->text,
-		.texts = gray->texts });
+	    &(picture){ (const unsigned char *)gray->pixel, gray->width, gray->height,
+		gray->width * sizeof *gray->pixel, 16, PNG_COLOR_TYPE_GRAY, gray->text, gray->texts });
 }
 
 mr_status

@@ -1,7 +1,5 @@
-/* rows.h -- vertices as rows of numbers, which columns by their roles make a model of. Contract: a reader
- * names the columns, begins, and puts row after row into the builder: what three columns make together is
- * position, normal, colour or the scanner's place, what two make texture coordinates; the others are
- * properties by their names.  Layer rule: formats. */
+/* rows.h -- vertices as rows of numbers: columns by their roles make positions, normals, colours, texture
+ * coordinates, places of the scanner; the others are properties by their names.  Layer rule: formats. */
 #ifndef MR_ROWS_H
 #define MR_ROWS_H
 

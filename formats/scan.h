@@ -1,6 +1,5 @@
-/* scan.h -- numbers as text, exactly, and a cursor over text in memory. Contract: reading rounds correctly,
- * as strtod does, bit for bit; writing gives the shortest decimal that reads back as the same double.
- * Nothing looks behind `end`, and no text needs a terminating NUL. Layer rule: formats. */
+/* scan.h -- numbers as text, exactly, and a cursor over text in memory, which needs no NUL at its end.
+ * Reading rounds as strtod does; writing gives the shortest decimal that reads back the same. */
 #ifndef MR_SCAN_H
 #define MR_SCAN_H
 

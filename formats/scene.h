@@ -1,7 +1,5 @@
-/* scene.h -- what one file holds of several frames and layers, of a format that has places for them.
- * Contract: a key frame begins nodes, one for each layer; a delta whose layers have the same triangles gives
- * their nodes another pose, one with others begins nodes of its own.  All is copied into the arena that is
- * kept. Layer rule: formats. */
+/* scene.h -- several frames and layers of one file.  A key frame begins nodes, one for each layer; a delta of
+ * the same triangles gives them another pose, another begins nodes of its own.  Layer rule: formats. */
 #ifndef MR_SCENE_H
 #define MR_SCENE_H
 

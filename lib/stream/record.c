@@ -22,23 +22,6 @@ static const char *const kinds[] = { NULL, "START", "FRAME", "DROP", "ENDFRAME",
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static uint64_t
-load(const unsigned char *p, int bytes)
-{
-	uint64_t v = 0;
-
-	while (bytes--)
-		v = v << 8 | p[bytes];
-	return v;
-}
-
-static void
-store(unsigned char *p, int bytes, uint64_t v)
-{
-	for (int i = 0; i < bytes; i++)
-		p[i] = (unsigned char)(v >> 8 * i);
-}
-
 size_t
 mr_type_size(char type)
 {
@@ -170,10 +153,11 @@ mr_status
 mr_record_parse(mr_ctx *ctx, const unsigned char header[MR_HEADER], uint64_t offset, mr_record *record)
 {
 	unsigned long long at = offset;
-	mr_record r = { .shape = { (char)header[ELEMENT], (char)header[TYPE], header[COMPONENTS] },
-		.rows = load(header + ROWS, 8),
-		.stored = load(header + STORED, 8) };
+	mr_record r = { .shape = { (char)header[ELEMENT], (char)header[TYPE], header[COMPONENTS] } };
 	bool start = !memcmp(header + LAYER, MR_MAGIC, MR_MAGIC_BYTES);
+
+	memcpy(&r.rows, header + ROWS, sizeof r.rows);
+	memcpy(&r.stored, header + STORED, sizeof r.stored);
 
 	if (!field(r.name, header + NAME, MR_COLUMN_MAX) || !*r.name)
 		return mr_fail(ctx, MR_EFORMAT, "byte %llu: no record begins here: bad name of a column", at);
@@ -205,13 +189,15 @@ checksum(const unsigned char header[MR_HEADER], const void *payload, size_t stor
 	unsigned char h[MR_HEADER];
 
 	memcpy(h, header, MR_HEADER);
-	store(h + CRC, 4, 0);
+	memset(h + CRC, 0, 4);
 	return libdeflate_crc32(libdeflate_crc32(0, h, MR_HEADER), payload, stored);
 }
 
 void
 mr_record_encode(const mr_record *r, const void *payload, unsigned char header[MR_HEADER])
 {
+	uint32_t crc;
+
 	memset(header, 0, MR_HEADER);
 	memcpy(header + LAYER, r->layer, strlen(r->layer));
 	memcpy(header + NAME, r->name, strlen(r->name));
@@ -219,17 +205,19 @@ mr_record_encode(const mr_record *r, const void *payload, unsigned char header[M
 	header[TYPE] = (unsigned char)r->shape.type;
 	header[COMPONENTS] = r->shape.components;
 	header[CODEC] = (unsigned char)r->codec;
-	store(header + ROWS, 8, r->rows);
-	store(header + STORED, 8, r->stored);
-	store(header + CRC, 4, checksum(header, payload, (size_t)r->stored));
+	memcpy(header + ROWS, &r->rows, sizeof r->rows);
+	memcpy(header + STORED, &r->stored, sizeof r->stored);
+	crc = checksum(header, payload, (size_t)r->stored);
+	memcpy(header + CRC, &crc, sizeof crc);
 }
 
 mr_status
 mr_record_verify(
     mr_ctx *ctx, const unsigned char header[MR_HEADER], const void *payload, size_t stored, uint64_t offset)
 {
-	uint32_t said = (uint32_t)load(header + CRC, 4), is = checksum(header, payload, stored);
+	uint32_t said, is = checksum(header, payload, stored);
 
+	memcpy(&said, header + CRC, sizeof said);
 	if (said != is)
 		return mr_fail(ctx, MR_EFORMAT,
 		    "byte %llu: the checksum of %.24s is %08x, not %08x: damaged bytes",

@@ -1,6 +1,5 @@
-/* levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it from control mesh and heights: a
- * layer whose columns are computed when they are asked for, on the level that is chosen.  The page's text names the
- * layer. */
+/* levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it: a layer that the page's text names,
+ * whose columns are computed when they are asked for, on the level that is chosen. */
 import { Column } from "../stream/codec.js";
 import { library } from "../library/compile.js";
 import { columnOf, keyOf } from "../stream/stream.js";

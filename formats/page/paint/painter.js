@@ -1,6 +1,5 @@
-/* painter.js -- the regions that are painted: of which layer, with which tool, in which region; what a stroke or a
- * button changes.  A painted column stands in its frames for the stream's, so that colours, legend and cards know no
- * other. */
+/* painter.js -- the regions that are painted: of which layer, with which tool, in which region.  A painted column
+ * stands in its frames for the stream's, so that colours, legend and cards know no other. */
 import { Regions, FIXED, HANDLE } from "./regions.js";
 import { regionColor } from "../draw/colors.js";
 import { connectPaint, showPaint } from "./paint_side.js";

@@ -1,6 +1,5 @@
 /* takeaway.js -- painted regions out of the page: as a file for mr-select, and as a script that gives them to the
- * page's stream. No word of the script comes from the stream but for its file's name, of which fileOf keeps letters,
- * digits and few signs. */
+ * page's stream.  Of the stream, only its file's name gets into the script: see fileOf. */
 import { HANDLE } from "./regions.js";
 import { write } from "./selection_file.js";
 import { columnOf, fileOf } from "../stream/stream.js";
