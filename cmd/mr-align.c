@@ -1,6 +1,6 @@
 /* mr-align -- move each frame onto another by a rigid motion.  See man/mr-align.1. */
 #include "cmd.h"
-#include "formats/outname.h"
+#include "formats/filename.h"
 
 #include <unistd.h>
 

@@ -1,8 +1,7 @@
 /* mr-export -- write a layer of each frame to a file.  See man/mr-export.1. */
 #include "cmd.h"
+#include "formats/filename.h"
 #include "formats/model.h"
-#include "formats/outname.h"
-#include "formats/scene.h"
 
 #include <strings.h>
 #include <unistd.h>

@@ -44,11 +44,9 @@ report(cmd *c, mr_frame *f)
 	opts.layer = c->layer;
 	MR_TRY(mr_report_frame(&c->ctx, f, &opts, &text, &broken));
 	cmd_print(c, "%s", text.s);
-	if (broken && broken_frames++ == 0) {
+	if (broken && broken_frames++ == 0)
 		first = mr_format(
 		    &c->keep, "frame %llu (%s): %s", (unsigned long long)f->number, f->name, broken);
-		return MR_OK;
-	}
 	return MR_OK;
 }
 

@@ -1,7 +1,7 @@
 /* mr-map -- heights over a control mesh to a picture, and back; what a surface looks like to another.  See
  * man/mr-map.1. */
 #include "cmd.h"
-#include "formats/outname.h"
+#include "formats/filename.h"
 
 static mr_map_opts opts = MR_MAP_DEFAULTS;
 static mr_bake_opts baking = MR_BAKE_DEFAULTS;

@@ -1,8 +1,8 @@
 /* mr-render -- a shaded picture of each frame.  See man/mr-render.1. */
 #include "cmd.h"
-#include "formats/outname.h"
+#include "formats/filename.h"
+#include "formats/image.h"
 #include "formats/paint.h"
-#include "formats/png.h"
 #include "render/gallery.h"
 
 static mr_render_opts opts = MR_RENDER_DEFAULTS;

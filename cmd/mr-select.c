@@ -65,13 +65,10 @@ static void
 count_handles(cmd *c, const mr_select_result *result)
 {
 	enum { SHOWN = 64 };
-	char name[24];
 
-	for (size_t h = 0; h < SHOWN && h < result->handle_count; h++) {
-		snprintf(name, sizeof name, "handle_%zu", h);
+	for (size_t h = 0; h < SHOWN && h < result->handle_count; h++)
 		if (result->handle[h])
-			cmd_figure(c, name, (double)result->handle[h]);
-	}
+			cmd_figure(c, mr_format(&c->ctx, "handle_%zu", h), (double)result->handle[h]);
 }
 
 static mr_status

@@ -36,12 +36,8 @@ prepare(cmd *c)
 static void
 tell(cmd *c, const mr_affine *map)
 {
-	char name[8];
-
-	for (int i = 0; i < 12; i++) {
-		snprintf(name, sizeof name, "m%d%d", i / 4 + 1, i % 4 + 1);
-		cmd_figure(c, name, map->m[i]);
-	}
+	for (int i = 0; i < 12; i++)
+		cmd_figure(c, mr_format(&c->ctx, "m%d%d", i / 4 + 1, i % 4 + 1), map->m[i]);
 }
 
 /* The frames of a sequence are mapped as their key frame is, by its box, so the film stays a film. */

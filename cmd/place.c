@@ -1,7 +1,7 @@
 /* Names and descriptors that lead to one file, or to a model. */
 #include "place.h"
 
-#include "formats/suffix.h"
+#include "formats/filename.h"
 #include "stream/record.h"
 
 #include <fcntl.h>

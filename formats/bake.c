@@ -5,10 +5,10 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "formats/bytes.h"
+#include "formats/filename.h"
+#include "formats/image.h"
 #include "formats/map.h"
 #include "formats/paint.h"
-#include "formats/png.h"
-#include "formats/suffix.h"
 #include "render/charts.h"
 
 /* ---- the source ---- */
@@ -200,8 +200,8 @@ mr_status
 mr_bake(mr_ctx *ctx, mr_frame *f, mr_frame *from, const char *name, const mr_bake_opts *opts,
     mr_map_result *result)
 {
-	static const mr_bake_opts defaults = MR_BAKE_DEFAULTS;
 	mr_map_result r;
 
-	MR_ON_COPY(ctx, f, done, result, r, bake(ctx, &done, from, name, opts ? opts : &defaults, &r));
+	MR_ON_COPY(ctx, f, done, result, r,
+	    bake(ctx, &done, from, name, opts ? opts : &(mr_bake_opts)MR_BAKE_DEFAULTS, &r));
 }

@@ -5,9 +5,9 @@
 
 #include "formats/build.h"
 #include "formats/bytes.h"
+#include "formats/model.h"
 #include "formats/rows.h"
 #include "formats/scan.h"
-#include "formats/scene.h"
 #include "mesh/polygon.h"
 
 typedef bool mr_sniff(const unsigned char *data, size_t size);

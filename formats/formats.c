@@ -1,8 +1,8 @@
 /* The table of formats: how each is recognised, read and written, and what it keeps. */
 #include "formats/formats.h"
 #include "base/utf8.h"
+#include "formats/filename.h"
 #include "formats/format.h"
-#include "formats/suffix.h"
 #include "mesh/name_lists.h"
 #include "stream/record.h"
 

@@ -339,12 +339,10 @@ kind_bytes(size_t kind)
 static size_t
 type_components(const char *type)
 {
-	static const char *const names[] = { "SCALAR", "VEC2", "VEC3", "VEC4" };
+	const char *of = type && strlen(type) == 4 && !strncmp(type, "VEC", 3) ? strchr("234", type[3])
+	                                                                       : NULL;
 
-	for (size_t i = 0; type && i < 4; i++)
-		if (!strcmp(type, names[i]))
-			return i + 1;
-	return 0;
+	return of ? (size_t)(*of - '0') : type && !strcmp(type, "SCALAR");
 }
 
 /* The place of `count` rows in a view that the object names with its offset; NULL where it names none. */

@@ -1,11 +1,11 @@
 /* GLB, written: a node with a mesh for each object of each layer, a primitive for each of its materials, and
  * poses as morph targets that an animation shows one after the other.  All of a layer share its vertices. */
 #include "base/text.h"
+#include "formats/filename.h"
 #include "formats/gltf.h"
 #include "formats/image.h"
 #include "formats/materials.h"
 #include "formats/model.h"
-#include "formats/suffix.h"
 #include "mesh/name_lists.h"
 
 enum { POINTS = 0, FRAMES_A_SECOND = 24 };

@@ -1,5 +1,4 @@
-/* image.h -- reading pictures; libjpeg behind jpeg.c, libpng behind png.c.  Layer rule: formats includes lib.
- */
+/* image.h -- pictures, of colours and of heights, in and out; libjpeg behind jpeg.c, libpng behind png.c. */
 #ifndef MR_FORMATS_IMAGE_H
 #define MR_FORMATS_IMAGE_H
 
@@ -25,5 +24,28 @@ mr_status mr_image_fits(mr_ctx *ctx, size_t width, size_t height, size_t bytes, 
 /* The same of bytes in memory. */
 mr_status mr_png_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image) MR_WARN_UNUSED;
 mr_status mr_jpeg_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image) MR_WARN_UNUSED;
+
+/* Writes the image beside `path` and renames it, so that a half picture is never seen; a device, a pipe or
+ * "-", stdout, directly.  The same image gives the same bytes.  MR_EIO. */
+mr_status mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image);
+
+/* A word about a picture, and what it says. */
+typedef struct mr_png_text {
+	const char *key, *text;
+} mr_png_text;
+
+/* A picture of one number a pixel, and what is said of it. */
+typedef struct mr_gray {
+	uint16_t *pixel; /* rows from the top, pixels from the left */
+	size_t width, height;
+	const mr_png_text *text;
+	size_t texts;
+} mr_gray;
+
+/* The same of 16 bits a pixel, the texts in its tEXt chunks. */
+mr_status mr_png_write_gray(mr_ctx *ctx, const char *path, const mr_gray *gray) MR_WARN_UNUSED;
+
+/* Reads such a file into the arena.  MR_EFORMAT for pixels of another kind; MR_ERANGE over 32,767 a side. */
+mr_status mr_png_read_gray(mr_ctx *ctx, const char *path, mr_gray *gray) MR_WARN_UNUSED;
 
 #endif

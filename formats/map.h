@@ -2,7 +2,7 @@
 #ifndef MR_MAP_H
 #define MR_MAP_H
 
-#include "formats/png.h"
+#include "formats/image.h"
 #include "render/bake.h"
 #include "subdivide/displaced.h"
 

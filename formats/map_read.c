@@ -201,8 +201,8 @@ read_map(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *o, mr_ma
 mr_status
 mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts, mr_map_result *result)
 {
-	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
 	mr_map_result r;
 
-	MR_ON_COPY(ctx, f, done, result, r, read_map(ctx, &done, path, opts ? opts : &defaults, &r));
+	MR_ON_COPY(ctx, f, done, result, r,
+	    read_map(ctx, &done, path, opts ? opts : &(mr_map_opts)MR_MAP_DEFAULTS, &r));
 }

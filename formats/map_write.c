@@ -5,9 +5,9 @@
 #include "base/text.h"
 #include "formats/build.h"
 #include "formats/bytes.h"
+#include "formats/filename.h"
 #include "formats/map.h"
 #include "formats/scan.h"
-#include "formats/suffix.h"
 #include "render/bake.h"
 
 #include <sys/stat.h>
@@ -310,8 +310,8 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 mr_status
 mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts, mr_map_result *result)
 {
-	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
 	mr_map_result r;
 
-	MR_ON_COPY(ctx, f, done, result, r, write_map(ctx, &done, name, opts ? opts : &defaults, &r));
+	MR_ON_COPY(ctx, f, done, result, r,
+	    write_map(ctx, &done, name, opts ? opts : &(mr_map_opts)MR_MAP_DEFAULTS, &r));
 }

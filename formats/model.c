@@ -361,10 +361,9 @@ mr_status
 mr_import(
     mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
 {
-	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
 
 	MR_ENTER(ctx);
-	return import(ctx, path, opts ? opts : &defaults, frame, result);
+	return import(ctx, path, opts ? opts : &(mr_import_opts)MR_IMPORT_DEFAULTS, frame, result);
 }
 
 /* Whether a column of mesh is one that models have, other than places and triangles. */

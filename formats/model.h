@@ -24,4 +24,42 @@ const double *mr_corner_texcoord(const mr_model *m, size_t corner);
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
     mr_outfile *held) MR_WARN_UNUSED;
 
+/* ---- scenes ---- */
+
+/* Several frames and layers of one file.  A key frame begins nodes, one for each layer; a delta of
+ * the same triangles gives them another pose, another begins nodes of its own. */
+
+/* Another pose of a surface or a cloud; normals where it has some. */
+typedef struct mr_target {
+	const mr_v3 *p, *normal, *corner_normal; /* as of mr_model */
+} mr_target;
+
+typedef struct mr_scene_node {
+	const char *frame, *layer;
+	size_t take; /* number of the frame that began it */
+	mr_model model;
+	mr_target *target;
+	size_t targets, target_room;
+} mr_scene_node;
+
+/* Starts zeroed but for the folder. */
+typedef struct mr_scene {
+	mr_scene_node *node;
+	size_t nodes, room, takes;
+	size_t open;        /* the nodes from here on are those that a delta poses */
+	const char *folder; /* of files of materials */
+} mr_scene;
+
+/* Adds a frame.  layers: with commas between, or NULL: the one that mr_layer_result chooses.  keep: the arena
+ * of what outlives the frame. */
+mr_status
+mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *layers) MR_WARN_UNUSED;
+
+/* Whether what is written there can hold several frames and layers. */
+bool mr_scene_suits(const char *path, const char *format);
+
+/* As mr_model_write, where mr_scene_suits. */
+mr_status mr_scene_write(mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene,
+    mr_outfile *held) MR_WARN_UNUSED;
+
 #endif

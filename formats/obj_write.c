@@ -139,14 +139,12 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 static void
 put_libraries(mr_sink *s, mr_lines files)
 {
-	const char *p = files.text, *end = files.bytes ? p + files.bytes : p;
+	mr_scan text = mr_scan_of(s->ctx, (const unsigned char *)files.text, files.bytes), line;
 
-	while (p < end) {
-		const char *e = memchr(p, '\n', (size_t)(end - p));
+	while (mr_scan_line(&text, &line)) {
 		mr_put(s, "mtllib ", 7);
-		mr_put(s, p, (size_t)((e ? e : end) - p));
+		mr_put(s, line.p, (size_t)(line.end - line.p));
 		mr_put(s, "\n", 1);
-		p = e ? e + 1 : end;
 	}
 }
 

@@ -1,6 +1,6 @@
 /* Pictures go into the page as the bytes of their files, but for what is said about them: cameras and places
  * are nobody's business, and turns and colour profiles mr-render does not follow. */
-#include "formats/page_pictures.h"
+#include "formats/page.h"
 
 #include "formats/image.h"
 #include "formats/materials.h"

@@ -1,9 +1,8 @@
 /* libpng, whose failures jump. */
-#include "formats/png.h"
+#include "formats/image.h"
 
 #include "base/options.h"
 #include "formats/bytes.h"
-#include "formats/image.h"
 #include "formats/paint.h"
 #include "render/gallery.h"
 
@@ -276,9 +275,8 @@ render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *o, const char *path)
 mr_status
 mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path)
 {
-	static const mr_render_opts defaults = MR_RENDER_DEFAULTS;
 	MR_SCOPE(ctx);
 
 	MR_ENTER(ctx);
-	return opts ? render(ctx, f, opts, path) : render(ctx, f, &defaults, path);
+	return render(ctx, f, opts ? opts : &(mr_render_opts)MR_RENDER_DEFAULTS, path);
 }

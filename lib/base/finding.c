@@ -67,23 +67,13 @@ number(const char *field)
 	return isfinite(x) ? x : 0;
 }
 
-static bool
-find_kind(const char *name, mr_finding_kind *kind)
-{
-	for (int i = 0; i < MR_FINDING_KINDS; i++)
-		if (!strcmp(names[i], name)) {
-			*kind = (mr_finding_kind)i;
-			return true;
-		}
-	return false;
-}
-
 bool
 mr_finding_read(const char **at, const char *end, mr_kept_finding *k)
 {
 	enum { TOOL, KIND, LAYER, COUNT, OF, VALUE, LIMIT, VERTEX, X, Y, Z, WHAT, FIELDS };
 	char field[FIELDS][MR_FINDING_WHAT + 1];
 	mr_finding f = { 0 };
+	int kind = 0;
 
 	if (*at >= end)
 		return false;
@@ -91,8 +81,11 @@ mr_finding_read(const char **at, const char *end, mr_kept_finding *k)
 		next_field(at, end, field[i], sizeof field[i]);
 	while (*at < end && *(*at)++ != '\n')
 		;
-	if (!find_kind(field[KIND], &f.kind))
+	while (kind < MR_FINDING_KINDS && strcmp(names[kind], field[KIND]))
+		kind++;
+	if (kind == MR_FINDING_KINDS)
 		return false;
+	f.kind = (mr_finding_kind)kind;
 	f.layer = field[LAYER];
 	f.what = field[WHAT];
 	f.count = (size_t)strtoull(field[COUNT], NULL, 10);

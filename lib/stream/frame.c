@@ -292,14 +292,6 @@ merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 	return mr_frame_put(ctx, frame, "", name, TEXT, text.s, text.n);
 }
 
-/* What frames have together, behind one another. */
-static bool
-is_joined(const mr_column *c)
-{
-	return !*c->layer &&
-	       (!strcmp(c->name, "history") || !strcmp(c->name, "findings") || !strcmp(c->name, "latest"));
-}
-
 mr_status
 mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
 {
@@ -308,7 +300,9 @@ mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
 			return mr_fail(ctx, MR_ERANGE, "layer %s is there already", from->columns[i].layer);
 	for (size_t i = 0; i < from->count; i++) {
 		const mr_column *c = &from->columns[i];
-		MR_TRY(is_joined(c) ? merge_lines(ctx, frame, from, c->name) : mr_frame_pass(ctx, frame, c));
+		bool joined = !*c->layer && (!strcmp(c->name, "history") || !strcmp(c->name, "findings") ||
+						!strcmp(c->name, "latest")); /* behind one another */
+		MR_TRY(joined ? merge_lines(ctx, frame, from, c->name) : mr_frame_pass(ctx, frame, c));
 	}
 	return MR_OK;
 }

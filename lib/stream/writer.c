@@ -170,13 +170,6 @@ same_name(const sent *a, const sent *b)
 	return !strcmp(a->name, b->name) && !strcmp(a->layer, b->layer);
 }
 
-static bool
-same_values(const sent *a, const sent *b)
-{
-	return mr_same_shape(a->shape, b->shape) && a->owner == b->owner && a->serial == b->serial &&
-	       a->print == b->print;
-}
-
 /* What a delta sends.  The reader keeps the order of columns that it has and appends others; so as long as
  * the frame's columns come in the order in which they were sent they are kept or replaced, and what follows
  * the first new one is sent (again), behind a DROP. */
@@ -192,7 +185,9 @@ compare(const mr_writer *w, plan *plans, size_t count, bool *survives)
 		if (j == w->count)
 			return;
 		survives[j] = true;
-		plans[i].send = !same_values(&w->sent[j], &plans[i].now);
+		const sent *then = &w->sent[j], *now = &plans[i].now;
+		plans[i].send = !mr_same_shape(then->shape, now->shape) || then->owner != now->owner ||
+		                then->serial != now->serial || then->print != now->print;
 		at = j + 1;
 	}
 }
@@ -275,15 +270,6 @@ check_open(mr_ctx *ctx, const mr_writer *w)
 	return MR_OK;
 }
 
-static mr_status
-check(mr_ctx *ctx, const mr_writer *w, const mr_frame *f)
-{
-	MR_TRY(check_open(ctx, w));
-	if (!mr_frame_name_valid(f->name, strlen(f->name)))
-		return mr_fail(ctx, MR_ERANGE, "a frame cannot be called '%s'", f->name);
-	return mr_frame_check_rows(ctx, f, MR_ERANGE);
-}
-
 /* Everything that can fail but for the writing comes first, so that a frame is sent whole or not at all. */
 static mr_status
 put(mr_ctx *ctx, mr_writer *w, const mr_frame *f)
@@ -316,7 +302,10 @@ mr_writer_put(mr_ctx *ctx, mr_writer *w, const mr_frame *frame)
 	MR_SCOPE(ctx);
 
 	MR_ENTER(ctx);
-	MR_TRY(check(ctx, w, frame));
+	MR_TRY(check_open(ctx, w));
+	if (!mr_frame_name_valid(frame->name, strlen(frame->name)))
+		return mr_fail(ctx, MR_ERANGE, "a frame cannot be called '%s'", frame->name);
+	MR_TRY(mr_frame_check_rows(ctx, frame, MR_ERANGE));
 	return put(ctx, w, frame);
 }
 

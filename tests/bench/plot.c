@@ -3,7 +3,7 @@
  * A line of standard input is NAME X Y; the points of a name are joined in the order of the lines.
  */
 #include "render/canvas.h"
-#include "formats/png.h"
+#include "formats/image.h"
 
 #include <math.h>
 

@@ -1,8 +1,6 @@
 /* selection_file.js -- regions as a text, which mr-select --from reads; its page says how it is made. */
 import { FIXED, FREE, HANDLE } from "./regions.js";
 
-const WIDTH = 100; /* characters of a line, about */
-
 /* FNV-1a, a corner at a time. */
 export function checksum(t) {
 	let sum = 2166136261;
@@ -37,24 +35,9 @@ function ranges(values) {
 	return out;
 }
 
-/* Lines of about one width that begin with the region's name. */
-function linesOf(name, words) {
-	const lines = [];
-	let line = name;
-
-	for (const word of words) {
-		line += " " + word;
-		if (line.length >= WIDTH) {
-			lines.push(line);
-			line = name;
-		}
-	}
-	return line === name ? lines : [...lines, line];
-}
-
 /* The text of all regions. */
 export function write(model, values) {
 	const found = [...ranges(values)].sort((a, b) => a[0] - b[0]);
 
-	return [head(model), ...found.flatMap(([region, words]) => linesOf(nameOf(region), words))].join("\n") + "\n";
+	return [head(model), ...found.map(([region, words]) => [nameOf(region), ...words].join(" "))].join("\n") + "\n";
 }

@@ -69,21 +69,12 @@ export class Strokes {
 		if (!found)
 			return;
 		this.stage.canvas.setPointerCapture(e.pointerId);
-		if (tool === "part")
-			this.part(found);
-		else
-			this.begin(e);
-	}
-
-	part({ face, vertex }) {
-		if (face !== null)
-			this.painter.part(vertex);
-	}
-
-	begin(e) {
-		this.painter.work.regions.begin();
-		this.stroke = { id: e.pointerId, last: [e.clientX, e.clientY] };
-		this.brush(e.clientX, e.clientY);
+		if (tool === "brush") {
+			this.painter.work.regions.begin();
+			this.stroke = { id: e.pointerId, last: [e.clientX, e.clientY] };
+			this.brush(e.clientX, e.clientY);
+		} else if (found.face !== null)
+			this.painter.part(found.vertex);
 	}
 
 	move(e) {

@@ -1,7 +1,7 @@
-/* outname.h -- names of output files made from a pattern: %s the frame's name, %d its number (%03d with
- * zeros), %% a per cent.  Layer rule: formats. */
-#ifndef MR_OUTNAME_H
-#define MR_OUTNAME_H
+/* filename.h -- what the end of a path says, and names of output files by a pattern: %s the frame's name, %d
+ * its number (%03d with zeros), %% a per cent.  Layer rule: formats. */
+#ifndef MR_FILENAME_H
+#define MR_FILENAME_H
 
 #include "base/name_table.h"
 
@@ -19,5 +19,17 @@ bool mr_outname_varies(const char *pattern);
 /* True where a file of that kind may be written there: a name that ends so, "-", or what is there and is no
  * file.  No model is overwritten so. */
 bool mr_outname_suits(const char *path, const char *suffix);
+
+/* The last part of a path: empty where that ends in a slash. */
+const char *mr_file_name(const char *path);
+
+/* The name of the format, whatever the case and whether .gz follows or not; NULL: of none. */
+const char *mr_suffix_format(const char *path);
+
+/* Whether that is the name of text of any kind: .txt, .csv or .asc. */
+bool mr_suffix_is_text(const char *path);
+
+/* Whether the name ends in .gz, and there is something before that. */
+bool mr_suffix_gz(const char *path);
 
 #endif
