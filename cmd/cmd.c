@@ -378,10 +378,13 @@ cmd_given(const cmd *c, const char *name)
 }
 
 mr_status
-cmd_idle(cmd *c, const char *name, bool idle, const char *why)
+cmd_idle(cmd *c, const char *names, bool idle, const char *why)
 {
-	if (idle && cmd_given(c, name))
-		return mr_fail(&c->ctx, MR_EUSAGE, "--%s has no effect %s", name, why);
+	for (size_t n = 0; idle && *names; names += n, names += *names == ' ') {
+		n = strcspn(names, " ");
+		if (cmd_given(c, mr_format(&c->ctx, "%.*s", (int)n, names)))
+			return mr_fail(&c->ctx, MR_EUSAGE, "--%.*s has no effect %s", (int)n, names, why);
+	}
 	return MR_OK;
 }
 

@@ -88,8 +88,8 @@ extern bool cmd_piped;
 /* Whether an option of the tool's own table stood on the command line. */
 bool cmd_given(const cmd *c, const char *name);
 
-/* For prepare: where that option was given though it is idle, MR_EUSAGE, "--NAME has no effect WHY". */
-mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN_UNUSED;
+/* For prepare: where one of these options (blanks between) was given though it is idle, MR_EUSAGE. */
+mr_status cmd_idle(cmd *c, const char *names, bool idle, const char *why) MR_WARN_UNUSED;
 
 /* For prepare: MR_EUSAGE where the option gave a name that no layer can have; NULL, where it was not given,
  * passes. */

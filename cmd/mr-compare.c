@@ -37,8 +37,7 @@ open_other(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--layer and --from name the same layer: give one");
 	MR_TRY(cmd_layer_name(c, "--from", layer_a));
 	MR_TRY(cmd_layer_name(c, "--to", layer_b));
-	MR_TRY(cmd_idle(c, "samples", opts.vertices_only, "with --vertices"));
-	MR_TRY(cmd_idle(c, "tolerance", opts.vertices_only, "with --vertices"));
+	MR_TRY(cmd_idle(c, "samples tolerance", opts.vertices_only, "with --vertices"));
 	MR_TRY(cmd_idle(c, "json", column != NULL, "with --column"));
 	if (column && (!mr_name_valid(column, MR_COLUMN_MAX) || mr_column_of("mesh", column)))
 		return mr_fail(&c->ctx, MR_EUSAGE, "--column: no column can be called '%s'", column);

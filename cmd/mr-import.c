@@ -24,8 +24,7 @@ check(cmd *c)
 
 	opts.layer = c->layer;
 	opts.welds = cmd_given(c, "weld");
-	MR_TRY(cmd_idle(c, "repair", opts.points, "with --points, which leaves no face"));
-	MR_TRY(cmd_idle(c, "outward", opts.points, "with --points, which leaves no face"));
+	MR_TRY(cmd_idle(c, "repair outward", opts.points, "with --points, which leaves no face"));
 	if (c->operand_count == 0 && isatty(STDIN_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "stdin is a terminal: pipe a file in, or name a FILE");
 	MR_TRY(cmd_layer_name(c, "--layer", c->layer));

@@ -37,13 +37,8 @@ static const cmd_opt table[] = {
 static mr_status
 check_bake(cmd *c)
 {
-	static const char *const of_bake[] = { "texture", "materials" }, *const of_heights[] = { "level",
-		"range" };
-
-	for (size_t i = 0; i < 2; i++) {
-		MR_TRY(cmd_idle(c, of_bake[i], !baked, "without --bake"));
-		MR_TRY(cmd_idle(c, of_heights[i], baked != NULL, "with --bake"));
-	}
+	MR_TRY(cmd_idle(c, "texture materials", !baked, "without --bake"));
+	MR_TRY(cmd_idle(c, "level range", baked != NULL, "with --bake"));
 	MR_TRY(cmd_idle(c, "materials", baking.texture != NULL, "with --texture"));
 	if (!baked)
 		return c->layer ? mr_fail(&c->ctx, MR_EUSAGE, "--layer has no effect without --bake") : MR_OK;
@@ -66,8 +61,7 @@ check(cmd *c)
 
 	if (!to == !from)
 		return mr_fail(&c->ctx, MR_EUSAGE, "give one of --write NAME and --read PICTURE");
-	MR_TRY(cmd_idle(c, "size", from != NULL, "with --read"));
-	MR_TRY(cmd_idle(c, "gutter", from != NULL, "with --read"));
+	MR_TRY(cmd_idle(c, "size gutter", from != NULL, "with --read"));
 	MR_TRY(check_bake(c));
 	opts.ranged = cmd_given(c, "range");
 	return mr_outname(&c->ctx, to ? to : from, "", 1, &name);

@@ -31,8 +31,7 @@ prepare(cmd *c)
 {
 	MR_TRY(cmd_idle(c, "ratio", opts.length > 0, "with --length"));
 	MR_TRY(cmd_idle(c, "vertices", opts.faces > 0, "with --faces"));
-	MR_TRY(cmd_idle(c, "length", opts.faces + opts.vertices > 0, "with --vertices or --faces"));
-	MR_TRY(cmd_idle(c, "ratio", opts.faces + opts.vertices > 0, "with --vertices or --faces"));
+	MR_TRY(cmd_idle(c, "length ratio", opts.faces + opts.vertices > 0, "with --vertices or --faces"));
 	if (opts.feature < 0)
 		opts.feature = 40; /* between the facets of round things and the edges of machined ones */
 	return cmd_idle(c, "gravity", opts.area_passes == 0, "without area passes");

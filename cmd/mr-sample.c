@@ -29,8 +29,7 @@ sample_frame(cmd *c, mr_frame *f)
 	mr_sample_result result;
 
 	opts.layer = c->layer;
-	MR_TRY(cmd_idle(c, "method", on_mesh, "on a mesh: its triangles are met"));
-	MR_TRY(cmd_idle(c, "neighbours", on_mesh, "on a mesh: its triangles are met"));
+	MR_TRY(cmd_idle(c, "method neighbours", on_mesh, "on a mesh: its triangles are met"));
 	MR_TRY(mr_sample_frame(&c->ctx, f, &opts, &result));
 	cmd_figures(c, figures, &result);
 	cmd_gaps(c, &result.gaps);

@@ -24,10 +24,7 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
-	static const char *const by_volume[] = { "grid", "lids", "ignore-normals" };
-
-	for (size_t i = 0; i < 3; i++)
-		MR_TRY(cmd_idle(c, by_volume[i], opts.method == MR_WRAP_CUBE, "on -m cube"));
+	MR_TRY(cmd_idle(c, "grid lids ignore-normals", opts.method == MR_WRAP_CUBE, "on -m cube"));
 	if (opts.template_mesh &&
 	    (opts.grid || opts.resolution || opts.lids || opts.ignore_normals || opts.method != MR_WRAP_AUTO))
 		return mr_fail(&c->ctx, MR_EUSAGE,

@@ -50,10 +50,8 @@ prepare(cmd *c)
 	MR_TRY(cmd_layer_name(c, "--to", opts.to));
 	if (opts.to && mr_layer_no_surface(opts.to)) /* by convention, which other tools go by */
 		return mr_fail(&c->ctx, MR_EUSAGE, "--to: layer %s holds no surface", opts.to);
-	if (opts.to && strcmp(opts.to, "control")) {
-		MR_TRY(cmd_idle(c, "creases", true, "with --to another layer"));
-		MR_TRY(cmd_idle(c, "smooth", true, "with --to another layer"));
-	}
+	MR_TRY(
+	    cmd_idle(c, "creases smooth", opts.to && strcmp(opts.to, "control"), "with --to another layer"));
 	MR_TRY(cmd_idle(c, "smooth", opts.creases, "with --creases"));
 	return cmd_idle(c, "ratio", opts.faces > 0, "with --faces");
 }

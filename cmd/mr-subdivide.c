@@ -21,11 +21,8 @@ static const cmd_field figures[] = { CMD_FIGURE_AS("seconds_subdivide", mr_subdi
 static mr_status
 check(cmd *c)
 {
-	static const char why[] = "beside --longest, which leaves the surface as it is";
-
-	MR_TRY(cmd_idle(c, "level", opts.longest > 0, why));
-	MR_TRY(cmd_idle(c, "limit", opts.longest > 0, why));
-	return cmd_idle(c, "crease", opts.longest > 0, why);
+	return cmd_idle(
+	    c, "level limit crease", opts.longest > 0, "beside --longest, which leaves the surface as it is");
 }
 
 static mr_status

@@ -1,6 +1,5 @@
-/* LAS, airborne scans: ASPRS LAS specification 1.4, 2019, and before.  Whole coordinates with a scale and an
- * offset; colours of 16 bits in some of the point formats.  Compressed files (LAZ) are refused.  What else a
- * point has is a property, unless it is 0 for all of them, as it is where a scanner did not tell. */
+/* LAS (ASPRS, LAS specification 1.4, 2019, and before): whole coordinates with scale and offset, 16-bit
+ * colours; not LAZ.  What else a point has is a property, unless it is 0 for all: not told. */
 #include "formats/format.h"
 
 enum { SHORTEST_HEADER = 227, FORMATS = 11 };

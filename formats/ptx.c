@@ -1,6 +1,5 @@
-/* PTX, Leica's text of scans: columns, rows, the scanner's position and axes (seven lines), a matrix of four
- * rows, by which each point is multiplied from the left, then columns x rows lines x y z intensity [r g b].
- * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, which is no place. */
+/* PTX, Leica's text of scans: columns, rows, position and axes, a matrix that multiplies points from the left
+ * and puts the scanner, then lines x y z intensity [r g b], 0 0 0 where no answer came. */
 #include "formats/format.h"
 
 typedef struct ptx {

@@ -1,8 +1,5 @@
-/* Points in columns: XYZ, PTS, PWN, and tables with a line of names.  The separator is the first of
- * semicolon, comma and tab that is in the line, else blanks.  Columns are told apart by names where there are
- * any, else by their number: 3 position; 6 normal, or colour where all are whole numbers of 0 to 255 and some
- * beyond 1; 7 intensity and colour, or colour and something; 9 and more colour and normal in either order.
- * Other columns are properties.  A first line with one whole number is the number of points. */
+/* Points in columns: XYZ, PTS, PWN, and tables with a line of names.  man/mr-import.1 says how columns are
+ * told apart where they have none.  A first line with one whole number counts the points. */
 #include "formats/format.h"
 
 enum { COLUMNS = 64 };

@@ -103,9 +103,8 @@ struct mr_entry {
 void mr_entry_begin(mr_ctx *ctx, mr_entry *entry);
 void mr_entry_end(mr_entry *entry);
 
-/* The first statement of a public function that returns mr_status, or of one whose caller has something to
- * close.  Where memory runs out below it, it returns MR_EMEM, with the sentence set, what the arena got since
- * released, and its outputs as they were. */
+/* The first statement of a public function, or of one whose caller has something to close: where memory runs
+ * out below it, it returns MR_EMEM, the sentence set, its memory released, its outputs as they were. */
 #define MR_ENTER(context)                                                                                    \
 	mr_entry entry_ __attribute__((cleanup(mr_entry_end)));                                              \
 	mr_entry_begin((context), &entry_);                                                                  \
@@ -204,18 +203,12 @@ void *mr_alloc(mr_ctx *ctx, size_t count, size_t size) MR_MEMORY;
 /* The same, zeroed. */
 void *mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size) MR_MEMORY;
 
-/* Grows `old`, which holds `used` objects and came from mr_alloc of this arena (or is NULL), to `count`
- * objects.  The old place is not to be used again: where it was large it is freed, else it stays until it is
- * released. */
+/* Grows `old` of this arena (or NULL), which holds `used` objects, to `count`.  The old place is not to be
+ * used again: where it was large it is freed, else it stays until it is released. */
 void *mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size) MR_MEMORY;
 
-/*
- * Makes room for `more` objects in an array that is filled step by step, by doubling: `used` of `*room` are
- * in use, and an array of NULL has no room.
- *
- *	MR_RESERVE(ctx, heap->p, heap->n, 1, &heap->room);
- *	heap->p[heap->n++] = x;
- */
+/* Makes room for `more` objects in an array that is filled step by step, by doubling: `used` of `*room` are
+ * in use, and an array of NULL has no room. */
 #define MR_RESERVE(ctx, array, used, more, room)                                                             \
 	mr_reserve((ctx), &(array), sizeof *(array), (used), (more), (room))
 void mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size_t *room);

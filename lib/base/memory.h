@@ -4,10 +4,8 @@
 
 #include "base/ctx.h"
 
-/* Memory of `size` bytes, 64-byte aligned, with what was in `old` (NULL: nothing), whose place it takes. What
- * is large lies in a file without a name in the folder ctx->scratch, where there is one, and the system
- * brings it to the disk as memory gets short.  NULL where there is not enough, with errno set, and then `old`
- * is as it was. */
+/* Memory, 64-byte aligned, with what was in `old` (or NULL), whose place it takes; where it is large, in a
+ * nameless file in ctx->scratch, if that is set.  NULL where there is none, errno set, `old` as it was. */
 void *mr_memory(const mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
 
 /* For a process that is ours, at its start: how it keeps memory that it has given back. */

@@ -1,6 +1,5 @@
-/* parallel.h -- loops over several threads whose result does not depend on how many. Contract: a body writes
- * only what belongs to its own indices, or to its own block in mr_parallel_blocks; sums are taken per block
- * and added in order. */
+/* parallel.h -- loops over several threads whose result does not depend on how many: a body writes only what
+ * belongs to its own indices, and sums are taken per piece and added in order. */
 #ifndef MR_BASE_PARALLEL_H
 #define MR_BASE_PARALLEL_H
 
@@ -9,9 +8,8 @@
 /* Works on the indices [begin, end); `arg` is the caller's. */
 typedef void (*mr_body)(void *arg, size_t begin, size_t end);
 
-/* Runs `body` over [0, count) on the context's threads, in pieces of `grain` indices (a piece begins at a
- * multiple of `grain`; the last may be short). Which thread takes which piece is not fixed.  Small loops run
- * in the caller. */
+/* Runs `body` over [0, count) on the context's threads, in pieces that begin at multiples of `grain`.  Which
+ * thread takes which is not fixed.  Small loops run in the caller. */
 void mr_parallel(const mr_ctx *ctx, size_t count, size_t grain, mr_body body, void *arg);
 
 /* The sum of `term(arg, i)` over [0, count): pieces of 4096 terms are summed in order, then the pieces in

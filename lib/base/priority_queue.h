@@ -1,6 +1,5 @@
 /* priority_queue.h -- a binary heap in an array of elements of any type (Williams 1964: Algorithm 232,
- * Heapsort). Contract: the first element is one that no other is before.  What comes first of equal ones is
- * fixed. */
+ * Heapsort).  No element is before the first; what comes first of equal ones is fixed. */
 #ifndef MR_BASE_PRIORITY_QUEUE_H
 #define MR_BASE_PRIORITY_QUEUE_H
 

@@ -85,11 +85,8 @@ largest_column(const sym4 *s, double q[4])
 	memcpy(q, column[best], sizeof column[best]);
 }
 
-/*
- * The unit quaternion (scalar first, not negative) of the nearest rotation: squared again and again the
- * matrix becomes the projection on its largest eigenvectors, of which any column is one.  Its norm is its
- * trace then.  Six times do where A is far from a reflection; of eigenvalues nearer than 1e-12 either serves.
- */
+/* The unit quaternion (scalar first, not negative) of the nearest rotation: squared again and again, the
+ * matrix becomes the projection on its largest eigenvectors, its norm its trace.  Mostly six times do. */
 static void
 nearest(const double m[9], double q[4])
 {

@@ -1,6 +1,4 @@
-/*
- * sort.h -- short lists of numbers in ascending order: by insertion where they are short, as they mostly are.
- */
+/* sort.h -- short lists of numbers in ascending order, by insertion; medians. */
 #ifndef MR_BASE_SORT_H
 #define MR_BASE_SORT_H
 

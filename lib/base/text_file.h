@@ -4,9 +4,8 @@
 
 #include "base/ctx.h"
 
-/* Reads the file and cuts it into lines, without what follows a # and without white space at either end; an
- * empty line stays, so line[i] is line i + 1 of the file.  In the arena. MR_EIO where it cannot be read,
- * MR_EFORMAT where it holds a zero byte. */
+/* Cuts the file into lines without what follows a # and white space at either end: line[i] is line i + 1. In
+ * the arena.  MR_EIO where it cannot be read, MR_EFORMAT where it holds a zero byte. */
 mr_status mr_lines_read(mr_ctx *ctx, const char *path, char ***line, size_t *count);
 
 /* Reads n finite numbers with commas between them at *at, which moves behind them; false where they are not

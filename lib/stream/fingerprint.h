@@ -1,6 +1,5 @@
-/* fingerprint.h -- a fingerprint of bytes: 64 bits by which a writer knows that it has sent a column before.
- * Contract: equal bytes have equal prints; others differ but for a chance of about 2^-64.  Not for use
- * against an adversary. Private to this room. */
+/* fingerprint.h -- 64 bits by which a writer knows a column again: those of other bytes differ but for a
+ * chance of 2^-64.  Not for use against an adversary.  Private to this room. */
 #ifndef MR_STREAM_FINGERPRINT_H
 #define MR_STREAM_FINGERPRINT_H
 

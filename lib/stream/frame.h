@@ -1,8 +1,5 @@
-/* frame.h -- a frame: named layers of named, typed columns (man/mr-stream.5). Contract: a column's bytes
- * belong to the reader that read it, or, for a column put by a tool, to the tool, which keeps them until the
- * frame is written (the arena does).  Data are read-only.  Order of columns is kept. This layer knows
- * records, not geometry: shapes are checked against what the caller asks for; what a layer means stands in
- * mesh/layers.h. */
+/* frame.h -- a frame: named layers of named, typed columns, in their order (man/mr-stream.5).  The bytes, not
+ * to be changed, belong to the reader, or to the tool that put them until the frame is written. */
 #ifndef MR_STREAM_FRAME_H
 #define MR_STREAM_FRAME_H
 

@@ -1,7 +1,5 @@
-/* planes.h -- the differences of rows, their bytes apart (man/mr-stream.5, codec 1). Smooth data differ
- * little from row to row, and then the high bytes of the differences are alike.  A block of 32,768 rows is
- * turned into planes: for each component, for each byte of its differences, the least significant first, that
- * byte of all rows.  deflate, level 1, does the rest. */
+/* planes.h -- the differences of rows, their bytes apart (man/mr-stream.5, codec 1): for each block of rows,
+ * component and byte, the least significant first, that byte of all.  Deflate does the rest. */
 #ifndef MR_STREAM_PLANES_H
 #define MR_STREAM_PLANES_H
 

@@ -1,6 +1,5 @@
-/* record.h -- the one kind of record that a stream consists of: its 64-byte header (man/mr-stream.5).
- * Contract: parsing checks everything that can be seen in a header alone, so that sizes behind it agree and
- * fit; the checksum is the caller's to ask for. */
+/* record.h -- the record that a stream consists of: its 64-byte header (man/mr-stream.5).  Parsing checks all
+ * that a header shows, so that sizes fit; the checksum is the caller's to ask for. */
 #ifndef MR_STREAM_RECORD_H
 #define MR_STREAM_RECORD_H
 

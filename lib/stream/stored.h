@@ -1,6 +1,5 @@
-/* stored.h -- bytes that outlive a frame: the input of a reader, and the columns it keeps. Contract: this
- * memory is of the heap, not the context's arena, which the command releases between frames; it is had
- * through one function, so that tests can make it fail. Private to this room. */
+/* stored.h -- a reader's input, and the columns it keeps, on the heap, since they outlive the arena of a
+ * frame; by one function, so that tests can make it fail.  Private to this room. */
 #ifndef MR_STREAM_STORED_H
 #define MR_STREAM_STORED_H
 

@@ -170,9 +170,8 @@ same_name(const sent *a, const sent *b)
 	return !strcmp(a->name, b->name) && !strcmp(a->layer, b->layer);
 }
 
-/* What a delta sends.  The reader keeps the order of columns that it has and appends others; so as long as
- * the frame's columns come in the order in which they were sent they are kept or replaced, and what follows
- * the first new one is sent (again), behind a DROP. */
+/* What a delta sends.  The reader keeps its order of columns and appends others: as long as the frame's come
+ * in that order they are kept or replaced, and what follows the first new one is sent behind a DROP. */
 static void
 compare(const mr_writer *w, plan *plans, size_t count, bool *survives)
 {
