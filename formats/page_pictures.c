@@ -120,6 +120,7 @@ static void
 wear_material(
     mr_ctx *ctx, mr_page_pictures *p, const char *layer, size_t i, const mr_material *m, mr_text *notes)
 {
+	const char *color = "-";
 	size_t number = 0;
 	bool pictured = false;
 
@@ -129,17 +130,11 @@ wear_material(
 		pictured = m->file != NULL;
 	if (!pictured && !m->colored)
 		return;
-	mr_text_add(notes, "material %s %zu", layer, i);
 	if (m->colored)
-		mr_text_add(
-		    notes, " %u,%u,%u", to_byte(m->color[0]), to_byte(m->color[1]), to_byte(m->color[2]));
-	else
-		mr_text_add(notes, " -");
-	if (pictured)
-		mr_text_add(notes, " %zu\n", number);
-	else
-		mr_text_add(notes, " -\n");
-	p->worn = true;
+		color = mr_format(
+		    ctx, "%u,%u,%u", to_byte(m->color[0]), to_byte(m->color[1]), to_byte(m->color[2]));
+	mr_text_add(notes, "material %s %zu %s %s\n", layer, i, color,
+	    pictured ? mr_format(ctx, "%zu", number) : "-");
 }
 
 static mr_status
