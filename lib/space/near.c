@@ -18,9 +18,7 @@ static const double MOST = 1e150;
 
 struct mr_near {
 	void *tree;
-	const mr_v3 *p;
-	double (*row)[3];   /* the distinct points, kept for FLANN */
-	uint32_t *original; /* index of each row in p */
+	uint32_t *original; /* index of each row; NULL: as they are */
 	size_t rows;
 };
 
@@ -34,20 +32,25 @@ check(mr_ctx *ctx, const char *what, const mr_v3 *p, size_t n)
 	return MR_OK;
 }
 
-/* The lowest index of each position, in order; how many. */
-static size_t
-find_rows(mr_ctx *ctx, const mr_v3 *p, size_t n, bool distinct, uint32_t *original)
+/* The distinct points, kept for FLANN, each with the lowest index of its position; *n: how many. */
+static const mr_v3 *
+find_rows(mr_ctx *ctx, const mr_v3 *p, size_t *n, uint32_t *original)
 {
-	MR_SCOPE(ctx);
-	uint32_t *map = MR_NEW(ctx, n, uint32_t), used = 0;
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *map = MR_NEW(ctx, *n, uint32_t), used = 0;
 	size_t rows;
+	mr_v3 *row;
 
-	if (!distinct)
-		mr_weld(ctx, p, n, 0, map, &rows);
-	for (uint32_t i = 0; i < n; i++)
-		if (distinct || map[i] == used)
+	mr_weld(ctx, p, *n, 0, map, &rows);
+	for (uint32_t i = 0; i < *n; i++)
+		if (map[i] == used)
 			original[used++] = i;
-	return used;
+	mr_mark_release(ctx, mark);
+	row = MR_NEW(ctx, used, mr_v3);
+	for (size_t i = 0; i < used; i++)
+		row[i] = p[original[i]];
+	*n = used;
+	return row;
 }
 
 static void
@@ -65,16 +68,15 @@ build_tree(mr_ctx *ctx, const mr_v3 *p, size_t n, bool distinct, mr_near **out)
 		return mr_fail(ctx, MR_ERANGE, "an index of nearest points needs 1 to %d points, not %zu",
 		    INT32_MAX - 1, n);
 	MR_TRY(check(ctx, "point", p, n));
-	near->original = MR_NEW(ctx, n, uint32_t);
-	near->rows = find_rows(ctx, p, n, distinct, near->original);
-	near->row = mr_alloc(ctx, near->rows, sizeof *near->row);
-	for (size_t i = 0; i < near->rows; i++)
-		memcpy(near->row[i], &p[near->original[i]], sizeof *near->row);
-	near->p = p;
+	if (!distinct) {
+		near->original = MR_NEW(ctx, n, uint32_t);
+		p = find_rows(ctx, p, &n, near->original);
+	}
+	near->rows = n;
 	mr_own(ctx, drop, near);
-	near->tree = mr_tree_build((const double(*)[3])near->row, near->rows, LEAF);
+	near->tree = mr_tree_build((const double(*)[3])(const void *)p, n, LEAF);
 	if (!near->tree)
-		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", near->rows);
+		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", n);
 	*out = near;
 	return MR_OK;
 }
@@ -97,20 +99,16 @@ mr_near_distinct(const mr_near *near)
 	return near->rows;
 }
 
-/* FLANN's k rows of one query, as indices of p, nearest first. */
+/* FLANN's k rows of one query, nearest first, as indices of p: equal ones by index. */
 static void
-order(const mr_near *near, mr_v3 q, const size_t *row, size_t k, uint32_t *index, double *dist2)
+order(const mr_near *near, const size_t *row, const double *d, size_t k, uint32_t *index)
 {
 	for (size_t i = 0; i < k; i++) {
-		uint32_t x = near->original[row[i]];
-		double d = mr_norm2(mr_sub(q, near->p[x]));
+		uint32_t x = near->original ? near->original[row[i]] : (uint32_t)row[i];
 		size_t j = i;
-		for (; j > 0 && (dist2[j - 1] > d || (dist2[j - 1] == d && index[j - 1] > x)); j--) {
+		for (; j > 0 && d[j - 1] == d[i] && index[j - 1] > x; j--)
 			index[j] = index[j - 1];
-			dist2[j] = dist2[j - 1];
-		}
 		index[j] = x;
-		dist2[j] = d;
 	}
 }
 
@@ -137,14 +135,13 @@ query_body(void *arg, size_t begin, size_t end)
 		return;
 	}
 	for (size_t i = begin; i < end; i++) {
+		const double *d = w->d + i * w->found;
 		uint32_t *index = w->index + i * w->k;
-		double *to = w->dist2 ? w->dist2 + i * w->k : w->d + i * w->found;
-		order(w->near, w->q[i], w->row + i * w->found, w->found, index, to);
-		for (size_t j = w->found; j < w->k; j++) {
+		order(w->near, w->row + i * w->found, d, w->found, index);
+		for (size_t j = w->found; j < w->k; j++)
 			index[j] = UINT32_MAX;
-			if (w->dist2)
-				to[j] = INFINITY;
-		}
+		for (size_t j = 0; w->dist2 && j < w->k; j++)
+			w->dist2[i * w->k + j] = j < w->found ? d[j] : INFINITY;
 	}
 }
 

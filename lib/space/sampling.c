@@ -448,7 +448,7 @@ find_figures(mr_ctx *ctx, mr_sampling *s)
 		sum_up(s, x, count);
 }
 
-/* c->p is there. */
+/* c->p is there, and c->near of two places or more. */
 static mr_status
 find_of_places(mr_ctx *ctx, cloud *c, mr_sampling *s)
 {
@@ -462,7 +462,6 @@ find_of_places(mr_ctx *ctx, cloud *c, mr_sampling *s)
 	s->noise = 0;
 	if (c->n < 2)
 		return MR_OK;
-	MR_TRY(mr_near_build_distinct(ctx, c->p, c->n, &c->near));
 	MR_TRY(find_spacing(ctx, c));
 	MR_TRY(find_noise(ctx, c, s));
 	if (c->n >= FEW)
@@ -475,19 +474,26 @@ find(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_sampling *out)
 {
 	double *spacing = MR_NEW(ctx, n, double);
 	uint8_t *outlier = MR_NEW(ctx, n, uint8_t), *repeat = MR_NEW(ctx, n, uint8_t);
-	mr_mark mark = mr_mark_take(ctx);
+	mr_mark mark = mr_mark_take(ctx), behind;
 	uint32_t *place = MR_NEW(ctx, n, uint32_t);
 	mr_sampling s = { .spacing = spacing, .outlier = outlier, .repeat = repeat, .n = n };
-	cloud c;
+	cloud c = { .near = NULL };
 
 	find_places(ctx, p, n, place, repeat, &c);
+	if (c.n > 1)
+		MR_TRY(mr_near_build_distinct(ctx, c.p, c.n, &c.near));
+	behind = mr_mark_take(ctx);
 	MR_TRY(find_of_places(ctx, &c, &s));
 	for (size_t i = 0; i < n; i++) {
 		spacing[i] = c.spacing[place[i]];
 		outlier[i] = c.outlier[place[i]];
 	}
-	mr_mark_release(ctx, mark);
+	mr_mark_release(ctx, behind);
 	find_figures(ctx, &s);
+	if (s.outliers == 0)
+		s.near = c.near;
+	else
+		mr_mark_release(ctx, mark);
 	*out = s;
 	return MR_OK;
 }

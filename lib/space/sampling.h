@@ -12,6 +12,7 @@
 #define MR_SPACE_SAMPLING_H
 
 #include "mesh/mesh.h"
+#include "space/near.h"
 #include "stream/frame.h"
 
 /* Points at one position are one place. */
@@ -26,6 +27,7 @@ typedef struct mr_sampling {
 	double usual;    /* median spacing */
 	double area;     /* of the surface: the sum of their squares */
 	double evenness; /* a low spacing over a high one (10 and 90 % are lower): 1 where they are equal */
+	mr_near *near;   /* of the places that mr_sampling_places gives; NULL: it is yet to be built */
 } mr_sampling;
 
 /*

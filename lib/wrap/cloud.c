@@ -62,5 +62,6 @@ mr_wrap_cloud_open(
 	cloud->diagonal = mr_box_diagonal(cloud->box);
 	MR_TRY(look_at_extent(ctx, cloud));
 	set_outliers_apart(ctx, cloud);
-	return mr_near_build_distinct(ctx, p, cloud->n, &cloud->near);
+	cloud->near = s->near;
+	return s->near ? MR_OK : mr_near_build_distinct(ctx, p, cloud->n, &cloud->near);
 }
