@@ -47,8 +47,4 @@ mr_status mr_align_model(mr_ctx *ctx, mr_align_side side, double unit, model *m)
 /* The features of its sparse ones; not oriented: their normals point away from what is around them. */
 mr_status mr_align_features(mr_ctx *ctx, bool oriented, model *m) MR_WARN_UNUSED;
 
-/* How the points of a may lie on b: by features, at most `most`, in *found. */
-mr_status mr_align_guess(
-    mr_ctx *ctx, const model *a, const model *b, size_t most, mr_affine *guess, size_t *found) MR_WARN_UNUSED;
-
 #endif

@@ -51,8 +51,7 @@ check_handles(
 		if (want.count[r] && (r >= reached.n || !reached.count[r]))
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: handle %zu reaches no vertex: it has no face, or is smaller than a "
-			    "triangle, "
-			    "or farther from it than from others",
+			    "triangle, or farther from it than from others",
 			    base->name, r - MR_REGION_HANDLE);
 	return MR_OK;
 }

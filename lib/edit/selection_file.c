@@ -121,8 +121,7 @@ check_model(mr_ctx *ctx, const mr_selection_file *file, const mr_mesh *m)
 	if (file->nv != m->nv || file->nf != m->nf || file->checksum != checksum_of(m))
 		return mr_fail(ctx, MR_EMESH,
 		    "%s is of another model, of %llu vertices and %llu faces of checksum %08lx: %s has %zu "
-		    "and %zu of "
-		    "%08lx",
+		    "and %zu of %08lx",
 		    file->path, (unsigned long long)file->nv, (unsigned long long)file->nf,
 		    (unsigned long)file->checksum, m->name, m->nv, m->nf, (unsigned long)checksum_of(m));
 	return MR_OK;

@@ -368,14 +368,12 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 		if (c->scale == 0)
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: %s cannot be stretched in one direction more than in another: the mesh "
-			    "alone "
-			    "can",
+			    "alone can",
 			    column->layer, column->name);
 		if (c->mirrors && !strcmp(column->layer, "displacement"))
 			return mr_fail(ctx, MR_EMESH,
 			    "displacement: %s follows the faces of control, which a mirror turns over: the "
-			    "mesh "
-			    "alone can be mirrored",
+			    "mesh alone can be mirrored",
 			    column->name);
 	}
 	return MR_OK;

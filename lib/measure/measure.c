@@ -174,29 +174,20 @@ spread_of(const double *x, size_t n)
 typedef struct job {
 	const mr_mesh *m;
 	const mr_edges *edges;
-	double *value;      /* per edge */
 	double (*angle)[3]; /* per face: least, greatest, sum of |angle - 60|; NaN without area */
 } job;
 
 static void
-edge_lengths(void *arg, size_t begin, size_t end)
-{
-	job *j = arg;
-
-	for (size_t e = begin; e < end; e++) {
-		uint32_t h = j->edges->he[j->edges->start[e]];
-		j->value[e] = mr_dist(j->m->p[mr_he_from(j->m, h)], j->m->p[mr_he_to(j->m, h)]);
-	}
-}
-
-static void
-measure_edges(mr_ctx *ctx, job *j, mr_geometry *g)
+measure_edges(mr_ctx *ctx, const job *j, mr_geometry *g)
 {
 	MR_SCOPE(ctx);
+	double *length = MR_NEW(ctx, j->edges->count, double);
 
-	j->value = MR_NEW(ctx, j->edges->count, double);
-	mr_parallel(ctx, j->edges->count, 4096, edge_lengths, j);
-	g->edge = spread_of(j->value, j->edges->count);
+	for (size_t e = 0; e < j->edges->count; e++) {
+		uint32_t h = j->edges->he[j->edges->start[e]];
+		length[e] = mr_dist(j->m->p[mr_he_from(j->m, h)], j->m->p[mr_he_to(j->m, h)]);
+	}
+	g->edge = spread_of(length, j->edges->count);
 }
 
 static void

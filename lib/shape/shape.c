@@ -1,6 +1,7 @@
 /* Solids by grids of quadrilaterals, of about as many vertices as asked for. */
 #include "shape/shape.h"
 
+#include "base/random.h"
 #include "mesh/repair.h"
 
 const char *const mr_solid_names[MR_SOLIDS] = { "sphere", "torus", "cube", "plane", "cylinder", "knot",
@@ -366,4 +367,117 @@ mr_solid_make(mr_ctx *ctx, const mr_make_opts *o, mr_mesh *m)
 	join_equal(ctx, &b);
 	*m = (mr_mesh){ .name = mr_solid_names[o->solid], .p = b.p, .t = b.t, .nv = b.nv, .nf = b.nf };
 	return MR_OK;
+}
+
+/* ---- points uniform by area: a face by its share of the running sum of areas, then a place in it ---- */
+
+/* The first face whose running sum of areas is above x. */
+static size_t
+face_at(const double *sum, size_t nf, double x)
+{
+	size_t low = 0, high = nf - 1;
+
+	while (low < high) {
+		size_t middle = low + (high - low) / 2;
+		if (sum[middle] > x)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	return low;
+}
+
+mr_status
+mr_surface_sample(mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr_v3 **points, mr_v3 **normals)
+{
+	mr_v3 *p = MR_NEW(ctx, count, mr_v3), *normal = MR_NEW(ctx, count, mr_v3);
+	MR_SCOPE(ctx);
+	double *sum = MR_NEW(ctx, m->nf, double), total = 0;
+	mr_random r = { seed };
+
+	for (size_t f = 0; f < m->nf; f++)
+		sum[f] = total += mr_norm(mr_face_cross(m, f));
+	if (!(total > 0))
+		return mr_fail(ctx, MR_EMESH, "%s: the %zu faces have no area to sample", m->name, m->nf);
+	for (size_t i = 0; i < count; i++) {
+		size_t f = face_at(sum, m->nf, mr_random_real(&r) * total);
+		/* uniform in the triangle (Osada, Funkhouser, Chazelle, Dobkin 2002, section 4) */
+		double a = sqrt(mr_random_real(&r)), b = mr_random_real(&r);
+		p[i] = mr_place_point(m, (mr_place){ (uint32_t)f, mr_vec(1 - a, a * (1 - b), a * b) });
+		normal[i] = mr_unit(mr_face_cross(m, f));
+	}
+	*points = p;
+	*normals = normal;
+	return MR_OK;
+}
+
+/* A Gaussian deviate (Box, Muller 1958). */
+static double
+gaussian(mr_random *r)
+{
+	double u = 1 - mr_random_real(r), v = mr_random_real(r);
+
+	return sqrt(-2 * log(u)) * cos(2 * MR_PI * v);
+}
+
+void
+mr_add_noise(mr_v3 *p, const mr_v3 *normal, size_t n, double deviation, uint64_t seed)
+{
+	mr_random r = { seed };
+
+	for (size_t i = 0; i < n; i++)
+		p[i] = mr_axpy(deviation * gaussian(&r), normal[i], p[i]);
+}
+
+/* ---- texture coordinates: of a plane its own places, else around the upright axis, with a seam at the half
+ * turn ---- */
+
+/* With the axis along z; bumpy, which stands on y, looks along x, where the middle of the picture is. */
+static mr_v3
+upright(mr_solid solid, mr_v3 p)
+{
+	return solid == MR_BUMPY ? mr_vec(p.z, p.x, p.y) : p;
+}
+
+static bool
+on_axis(mr_v3 p)
+{
+	return hypot(p.x, p.y) < 1e-9;
+}
+
+/* The corners of a face around the axis: none a half turn from the first; one on the axis between the others.
+ */
+static void
+wrap_face(const mr_v3 p[3], double uv[6])
+{
+	int first = on_axis(p[0]) ? 1 : 0;
+
+	for (int k = 0; k < 3; k++) {
+		double r = mr_norm(p[k]);
+		uv[2 * k] = 0.5 + atan2(p[k].y, p[k].x) / (2 * MR_PI);
+		uv[2 * k + 1] = 1 - acos(r > 0 ? p[k].z / r : 0) / MR_PI;
+	}
+	for (int k = 0; k < 3; k++)
+		uv[2 * k] -= floor(uv[2 * k] - uv[2 * first] + 0.5);
+	for (int k = 0; k < 3; k++)
+		if (on_axis(p[k]))
+			uv[2 * k] = (uv[2 * ((k + 1) % 3)] + uv[2 * ((k + 2) % 3)]) / 2;
+}
+
+void
+mr_solid_texcoords(mr_ctx *ctx, mr_solid solid, const mr_mesh *m, double **corners)
+{
+	double *uv = MR_NEW(ctx, 6 * m->nf, double);
+
+	for (size_t f = 0; f < m->nf; f++) {
+		mr_v3 p[3];
+		for (size_t k = 0; k < 3; k++) {
+			p[k] = upright(solid, m->p[m->t[f].v[k]]);
+			uv[6 * f + 2 * k] = (p[k].x + 1) / 2;
+			uv[6 * f + 2 * k + 1] = (p[k].y + 1) / 2;
+		}
+		if (solid != MR_PLANE)
+			wrap_face(p, uv + 6 * f);
+	}
+	*corners = uv;
 }

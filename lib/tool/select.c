@@ -46,8 +46,7 @@ look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 	mr_finding found = { .kind = MR_UNHELD,
 		.layer = m->name,
 		.what = "a handle meets fixed vertices with nothing free between: free a ring around it, or "
-			"select "
-			"all of the limb" };
+		        "select all of the limb" };
 	bool *leads = MR_NEW_ZERO(ctx, mr_regions_of(ctx, region, m->nv).n, bool);
 
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
