@@ -21,8 +21,7 @@ enum {
 /* Guesses that turn each other's points by less than this many steps are one. */
 static const double SAME = 6;
 
-/* A motion is found where the points that have a partner fit it well, and no other place does nearly as well.
- */
+/* A motion is found where partners fit it well, and no other place does nearly as well. */
 static const double FITS = 0.55, OTHER = 0.8, BETTER = 0.05;
 
 /* Cosine of normals of points that may be partners. */
@@ -104,8 +103,7 @@ find_partner(const pairing *w, size_t i, double reach, partner *to)
 	return true;
 }
 
-/* The share of the points that lie on the other side: each by its distance from the plane, and by the
- * normals. */
+/* The share of the points on the other side: each by its distance from the plane and by the normals. */
 static double
 score(const pairing *w, double reach, double limit)
 {
@@ -220,8 +218,7 @@ draw_near(mr_ctx *ctx, pairing *w, const samples *cells, double from, double to,
 
 /* ---- guesses ---- */
 
-/* Two points with normals of like features fix a motion (Drost, Ulrich, Navab, Ilic 2010; Fischler, Bolles
- * 1981). */
+/* Two points with normals of like features fix a motion (Drost et al. 2010; Fischler, Bolles 1981). */
 enum { KEYS = 1000, ALIKE = 3, TRIALS = 2000000 };
 
 /* Two pairs are alike where lengths differ by so many steps, and cosines of normals by so much. */

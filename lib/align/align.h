@@ -16,8 +16,8 @@ typedef struct mr_align_side {
 mr_status
 mr_align(mr_ctx *ctx, mr_align_side a, mr_align_side b, bool scale, mr_align_result *r) MR_WARN_UNUSED;
 
-/* Reports as unaligned what is apart, by its comparison, and a quarter of that after a motion; where somebody
- * listens. */
+/* Reports as unaligned what a motion brings to a quarter of its comparison `apart`; where somebody listens.
+ * */
 mr_status
 mr_align_judge(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_comparison *apart) MR_WARN_UNUSED;
 

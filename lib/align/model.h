@@ -1,5 +1,4 @@
-/* model.h -- private to its room: what is known of one side, in a frame of its own: about its middle, by a
- * unit. */
+/* model.h -- private to its room: what is known of one side, about its middle, by a unit. */
 #ifndef MR_ALIGN_MODEL_H
 #define MR_ALIGN_MODEL_H
 
@@ -34,8 +33,7 @@ typedef struct model {
 	float (*feature)[FEATURE]; /* of sparse points */
 } model;
 
-/* The distance between neighbours of `sparse`, in units; that on which the surface is looked at is about
- * twice it. */
+/* The distance between neighbours of `sparse`, in units; the surface is looked at on about twice it. */
 static const double STEP = 0.015;
 
 /* A sample near p, or MR_NONE where none is within two steps. */

@@ -75,8 +75,7 @@ outside(double x, double a, double b, double c)
 	return most > 0 ? most : 0;
 }
 
-/* Whether the face's box is nearer: its nearest point lies within that, so that rounding tells no other way.
- */
+/* Whether the face's box is nearer: its nearest point lies within, so that rounding tells no other way. */
 static inline bool
 may_be_nearer(const walker *w, uint32_t f, mr_v3 q, double dist2)
 {

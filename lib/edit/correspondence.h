@@ -1,5 +1,4 @@
-/* correspondence.h -- where each vertex of a mesh stands on its base, by the source map, which says the
- * reverse. */
+/* correspondence.h -- where each vertex of a mesh stands on its base, by the source map. */
 #ifndef MR_EDIT_CORRESPONDENCE_H
 #define MR_EDIT_CORRESPONDENCE_H
 

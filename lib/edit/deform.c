@@ -237,8 +237,7 @@ mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps
 	return MR_OK;
 }
 
-/* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5.
- */
+/* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for freeform modeling, section 5. */
 
 static void
 row_of(mr_v3 p, double row[4])
@@ -262,8 +261,7 @@ respond_to(mr_ctx *ctx, mr_deform *d, size_t h, const mr_v3 *p0, double *respons
 	return MR_OK;
 }
 
-/* Without fixed vertices the lowest handle moves the whole: its response is what the others leave of (x, y,
- * z, 1). */
+/* Without fixed vertices the lowest handle moves the whole: its response is what the others leave. */
 static void
 respond_to_whole(const mr_deform *d, const mr_v3 *p0, double *response)
 {
@@ -304,8 +302,7 @@ mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response)
 
 /* The system of the last frame serves as long as nothing that it was made of has changed. */
 
-/* The columns that the system depends on, by their serials: in a key frame and its deltas the same column has
- * the same. */
+/* The columns that the system depends on, by their serials: in a key and its deltas the same has the same. */
 static void
 identify(const mr_frame *f, const char *layer, const char *rest, uint64_t part[MR_DEFORM_PARTS])
 {

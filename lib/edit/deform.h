@@ -30,8 +30,7 @@ mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_d
  * values, the caller's. */
 mr_status mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response);
 
-/* A factored system, used again as long as delta frames leave all that it depends on.  Zeroed, the cache is
- * empty. */
+/* A factored system, used again as long as deltas leave all that it depends on.  Zeroed, it is empty. */
 enum { MR_DEFORM_PARTS = 10 };
 
 typedef struct mr_deform_cache {

@@ -1,5 +1,4 @@
-/* Energies as deform_energy.h has them; rounds with the spokes and rims of Chao, Pinkall, Sanan, Schroeder
- * 2010. */
+/* Energies as deform_energy.h has them; spokes and rims of Chao, Pinkall, Sanan, Schroeder 2010. */
 #include "edit/deform_energy.h"
 
 #include "base/parallel.h"
@@ -199,8 +198,7 @@ place_about_sections(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* The local step of rounds: the rotation that takes the faces around a vertex best to where they are, times
- * its stretch. */
+/* The local step of rounds: the rotation that fits the faces around a vertex best, times its stretch. */
 static mr_mat3
 fit(const turning *t, size_t i)
 {

@@ -110,8 +110,7 @@ mr_loose_follow(mr_ctx *ctx, const mr_loose *l, const mr_v3 *p0, mr_v3 *p)
 			p[v] = mr_apply(&motion[l->part[v]], p0[v]);
 }
 
-/* A row of 4 values a handle, (x, y, z, 1) times how much it moves: what (x, y, z) is at the follower is
- * known. */
+/* A row of 4 values a handle, (x, y, z, 1) times how much it moves: (x, y, z) at the follower is known. */
 static void
 respond(const uint32_t *anchor, size_t handles, const mr_v3 *p0, uint32_t v, double *response)
 {

@@ -12,8 +12,7 @@
 mr_mesh
 mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region, bool *follows);
 
-/* A part that follows moves by the rigid motion that fits best that of so many vertices of the rest nearest
- * to it. */
+/* A part that follows moves by the rigid motion that fits best that of so many vertices nearest to it. */
 enum { MR_ANCHORS = 64 };
 
 typedef struct mr_loose {

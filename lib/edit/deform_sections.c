@@ -50,8 +50,7 @@ level_of(const finder *s, size_t f)
 	return LEVELS * (s->weight[v[0]] + s->weight[v[1]] + s->weight[v[2]]) / 3;
 }
 
-/* A face meets the levels beside its mean, and those that run through it; none where nothing changes, as in a
- * handle. */
+/* A face meets the levels beside its mean, and those through it; none where nothing changes. */
 static void
 find_levels(finder *s)
 {

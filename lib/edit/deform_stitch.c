@@ -18,8 +18,7 @@ typedef struct seam {
 	size_t nf;
 } seam;
 
-/* The least height over an edge of what is as long as the longest edge: 0.87 of an equilateral triangle, 0 of
- * a line. */
+/* The least height over the longest edge: 0.87 of an equilateral triangle, 0 of a line. */
 static double
 shape(mr_v3 a, mr_v3 b, mr_v3 c)
 {

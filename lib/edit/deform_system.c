@@ -43,8 +43,7 @@ share_negative(const mr_sparse *l, size_t n)
 	return edges ? (double)negative / (double)edges : 0;
 }
 
-/* The unknowns whose boundary conditions multigrid has wrong: so near to constraints that a few dozen
- * iterations do. */
+/* The unknowns whose boundary conditions multigrid has wrong: near constraints a few dozen iterations do. */
 static void
 find_strip(
     mr_ctx *ctx, const mr_deform_system *s, const mr_mesh *rest, const uint32_t *number, mr_hierarchy *h)

@@ -23,8 +23,7 @@ typedef struct mr_patch {
  * level: nv, the caller's. */
 void mr_patch_levels(const mr_mesh *m, const bool *chosen, uint8_t most, uint8_t *level);
 
-/* The chosen vertices of m, of whose faces the first `own` count as such, and `rings` rings, 1 to
- * MR_PATCH_RINGS. */
+/* The chosen vertices of m, whose first `own` faces count as such, and 1 to MR_PATCH_RINGS rings. */
 void
 mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch);
 

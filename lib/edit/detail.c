@@ -70,8 +70,7 @@ keep_offset(const encoder *e, size_t i, mr_place at)
 	e->height[i] = 0;
 }
 
-/* A height is sound below the base's radius of curvature: beyond, normals meet, and any motion tears the
- * heights apart. */
+/* A height is sound below the base's radius of curvature: beyond, normals meet, and motions tear. */
 static bool
 is_sound(const encoder *e, const mr_foot *foot)
 {
@@ -103,8 +102,7 @@ settle(const encoder *e, size_t i, bool sound)
 		e->stand[i] = mr_phong_point(&e->ground.surface, e->foot[i].at);
 }
 
-/* Whether a height is about as large as the base's distance from the mesh is near by: else it may lead to
- * another sheet. */
+/* Whether a height is about as large as the base's distance from the mesh near by: else of another sheet. */
 static bool
 is_likely(const encoder *e, size_t i, mr_place start)
 {
@@ -396,8 +394,7 @@ turn_normals(void *arg, size_t begin, size_t end)
 		t->normal[v] = mr_turn_normal(&t->turn[v], t->rest[v]);
 }
 
-/* Normals of the moved surface itself turn to and fro where it is crumpled a little, and tear apart what
- * stands on them. */
+/* Normals of the moved surface itself turn to and fro where it is crumpled, and tear what stands on them. */
 static void
 turn_frames(mr_ctx *ctx, const mr_mesh *rest, mr_v3 *normal, decoder *j)
 {

@@ -11,8 +11,7 @@ mr_status mr_pose_set(mr_ctx *ctx, mr_pose *pose, const char *what, const char *
 /* MR_EUSAGE where a part of the way (0 < share < 1) is not defined: a scale that is not positive. */
 mr_status mr_pose_check_shares(mr_ctx *ctx, const mr_pose *pose);
 
-/* T = C translate rotate scale C^-1, a share of the way from rest: of the translation, of the angle, as power
- * of the scale. */
+/* T = C translate rotate scale C^-1, a share of the way: of translation and angle, as power of the scale. */
 mr_affine mr_pose_map(const mr_pose *pose, mr_v3 center, double share);
 
 /* The handles of a layer, by number; count 0: the number is not in use. */
@@ -28,8 +27,7 @@ mr_status mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region,
 /* The same in the layer with the regions: `layer`, or where it is NULL mesh, else control. */
 mr_status mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h);
 
-/* Where handles are, and by how much each has turned on the way there: along the axis, as long as the angle.
- */
+/* Where handles are, and by how much each has turned there: along the axis, as long as the angle. */
 typedef struct mr_handle_rows {
 	size_t n;
 	mr_affine *map;

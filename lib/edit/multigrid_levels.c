@@ -1,5 +1,4 @@
-/* Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4.4: multigrid on remeshed
- * levels. */
+/* Botsch, Kobbelt 2004: A remeshing approach ..., section 4.4: multigrid on remeshed levels. */
 #include "edit/deform_system.h"
 
 #include "edit/correspondence.h"

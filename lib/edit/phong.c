@@ -1,5 +1,4 @@
-/* The normal field of Phong shading (Phong 1975: Illumination for computer generated pictures) and its
- * frames. */
+/* The normal field of Phong shading (Phong 1975) and its frames. */
 #include "edit/phong.h"
 
 mr_v3
@@ -10,8 +9,7 @@ mr_phong_face_normal(const mr_phong *s, uint32_t face)
 	return mr_norm2(n) > 0 ? n : mr_vec(0, 0, 1);
 }
 
-/* a without its part along the unit vector n, at unit length, zero where nothing is left; again, as a may lie
- * all but along n. */
+/* a without its part along the unit vector n, at unit length, zero where nothing is left. */
 static mr_v3
 tangent(mr_v3 a, mr_v3 n)
 {
@@ -158,8 +156,7 @@ neighbour(const mr_foot_ground *g, uint32_t face, uint32_t a, uint32_t b)
 	return MR_NONE;
 }
 
-/* Where the way from one place to another first leaves the face: the corner opposite the edge, the share of
- * the way. */
+/* Where the way first leaves the face: the corner opposite the edge, the share of the way. */
 static int
 first_exit(place from, place to, double *share)
 {

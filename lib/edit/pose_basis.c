@@ -1,5 +1,4 @@
-/* Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5: precomputed basis
- * functions. */
+/* Botsch, Kobbelt 2004: An intuitive framework for freeform modeling, section 5: basis functions. */
 
 #include "base/parallel.h"
 #include "edit/detail.h"

@@ -457,8 +457,7 @@ find_predicate(const char *text)
 	return NULL;
 }
 
-/* Where the term that begins `text` ends: at a '+' before another term (others belong to a number or a name).
- */
+/* Where the term that begins `text` ends: at a '+' before another term. */
 static size_t
 term_length(const char *text)
 {

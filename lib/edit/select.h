@@ -27,8 +27,7 @@ typedef struct mr_groups {
 mr_status
 mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *option, const char *predicate);
 
-/* Appends the rule that vertices have the regions that a file gives them (selection_file.h); others keep
- * theirs. */
+/* Appends the rule that vertices have the regions of a file (selection_file.h); others keep theirs. */
 mr_status mr_selection_add_file(mr_ctx *ctx, mr_selection *s, const char *option, const char *path);
 
 /* The region that the first rule gives. */

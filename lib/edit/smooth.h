@@ -5,8 +5,7 @@
 
 #include "mesh/mesh.h"
 
-/* Smooths to out, nv positions, not m->p.  MR_EUSAGE where the passes are too few for the time.  result: or
- * NULL. */
+/* Smooths to out, nv, not m->p.  MR_EUSAGE where the passes are too few for the time.  result: or NULL. */
 mr_status
 mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out, mr_smooth_result *result);
 

@@ -15,8 +15,7 @@ typedef struct mr_transform {
  * side to 1, too.  MR_EUSAGE with a sentence; MR_EIO, MR_EFORMAT of a file. */
 mr_status mr_transform_add(mr_ctx *ctx, mr_transform *t, const char *what, const char *text) MR_WARN_UNUSED;
 
-/* The map of all steps for this frame; the box is that of all positions, or of those of the layer, where it
- * is not NULL. */
+/* The map of all steps for this frame; the box is of all positions, or of the layer's, where not NULL. */
 mr_status mr_transform_map(
     mr_ctx *ctx, mr_frame *f, const char *layer, const mr_transform *t, mr_affine *map) MR_WARN_UNUSED;
 

@@ -5,14 +5,12 @@
 #include "base/rotation.h"
 #include "mesh/mesh.h"
 
-/* The gradient of the motion, some rings around a vertex, times their area, 0 exactly where nothing moved;
- * and that area. */
+/* The gradient of the motion some rings around, times their area, 0 where nothing moved; and that area. */
 typedef struct mr_turn {
 	double sum[10];
 } mr_turn;
 
-/* A smooth field, unlike the turns of single faces.  now: where the vertices of rest have gone.  Returns nv,
- * in the arena. */
+/* A smooth field.  now: where the vertices of rest have gone.  Returns nv, in the arena. */
 const mr_turn *mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_v3 *now);
 
 /* What becomes of the unit normal n of the surface at rest. */

@@ -1,5 +1,4 @@
-/* Edges that base does not account for: torn ones, and long ones that cut across what base does between their
- * ends. */
+/* Edges that base does not account for: torn ones, and long ones that cut across what base does. */
 #include "judge/judge.h"
 
 #include "base/rotation.h"
@@ -89,8 +88,7 @@ off_arc(const mr_motion *m, const mr_ground *g, uint32_t h)
 	return sqrt(length2(m->then->p, m->then, h)) * acos(fmax(-1, fmin(1, cosine))) / 8;
 }
 
-/* Long edges: across others base would have to turn by over two radians.  Edges no longer than the limit
- * would go within far. */
+/* Long edges across which base turns much.  Edges no longer than the limit would go within far. */
 static void
 judge_chords(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far)
 {

@@ -359,8 +359,7 @@ list_faces(mr_ctx *ctx, const crowd *c, mr_tri *t)
 	return n;
 }
 
-/* The crowd becomes n faces t, and their corners, which get numbers of their own; c->vertex: what they were.
- */
+/* The crowd becomes n faces t, and their corners, newly numbered; c->vertex: what they were. */
 static void
 keep_faces(mr_ctx *ctx, crowd *c, mr_tri *t, size_t n)
 {

@@ -35,8 +35,7 @@ read_regions(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint3
 	return mr_layer_has(f, layer, "region") ? mr_layer_region(ctx, f, layer, nv, region) : MR_OK;
 }
 
-/* Where base stood when mesh did: where its last pose began, else where mesh was encoded; then->p NULL: not
- * known. */
+/* Where base stood when mesh did: before its last pose, else as encoded; then->p NULL: not known. */
 static mr_status
 base_then(mr_ctx *ctx, mr_frame *before, mr_frame *after, mr_mesh *then)
 {

@@ -1,5 +1,4 @@
-/* judge.h -- what became of a surface: the parts of mr_judge (mr.h), which report findings.  Private to this
- * room. */
+/* judge.h -- what became of a surface: the parts of mr_judge (mr.h).  Private to this room. */
 #ifndef MR_JUDGE_JUDGE_H
 #define MR_JUDGE_JUDGE_H
 
@@ -7,8 +6,7 @@
 
 typedef float mr_float4 __attribute__((vector_size(16)));
 
-/* The faces around a vertex: the sums of their unit normals, then and now, and behind each how many there
- * are. */
+/* The faces around a vertex: the sums of their unit normals, then and now, and behind each their number. */
 typedef struct mr_ring {
 	mr_float4 then, now;
 } mr_ring;
@@ -54,8 +52,7 @@ typedef struct mr_harm {
  * those around it, or vertices that were far apart. */
 void mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm);
 
-/* Whether faces f and g stand to each other as they did: where they touch, rounding decides whether they
- * intersect. */
+/* Whether faces f and g stand to each other as they did: where they touch, rounding decides the rest. */
 bool mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g);
 
 /* Folds and intersections that came. */
@@ -67,8 +64,7 @@ void mr_judge_contacts(mr_ctx *ctx, const mr_motion *m, bool *closed);
 /* Edges that base does not account for: torn, or too long to follow it. */
 void mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g);
 
-/* Constrained vertices that are not where they belong, and of a closed surface the volume where handles only
- * turn. */
+/* Constrained vertices that are not where they belong, and the volume where handles only turn. */
 void mr_judge_pose(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, bool closed);
 
 /* A surface of other triangles against what it was made of. */

@@ -1,5 +1,4 @@
-/* Constrained vertices that are not where the maps of their regions, fitted by least squares, have them; and
- * the volume. */
+/* Constrained vertices off the maps fitted to their regions by least squares; and the volume. */
 #include "judge/judge.h"
 
 #include "base/rotation.h"
@@ -68,8 +67,7 @@ map_of(const fit *f, mr_v3 from)
 	return mr_add(f->to, mr_mat3_apply(&f->yx, mr_sub(from, f->from)));
 }
 
-/* Handles that only turn ask for no other volume: they turn, or are where they were.  far: that is no move.
- */
+/* Handles that only turn ask for no other volume.  far: that is no move. */
 static bool
 keeps_volume(const fit *fits, size_t regions, double far)
 {

@@ -98,8 +98,7 @@ deviation(mr_v3 a, mr_v3 b)
 	return mr_norm2(a) > 0 && mr_norm2(b) > 0 ? mr_angle(a, b) * 180 / MR_PI : NAN;
 }
 
-/* Measures the centroid of a piece; raises *bound where the piece may reach beyond what is measured so far.
- */
+/* Measures the centroid of a piece; raises *bound where the piece may reach beyond what is measured. */
 static void
 measure_piece(
     const job *j, const mr_v3 v[3], mr_v3 normal, double area, double *most, sample *at, double *bound)

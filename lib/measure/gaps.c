@@ -4,12 +4,10 @@
 #include "base/sort.h"
 #include "space/bvh.h"
 
-/* Surface is bare that is so many times farther from the nearest place than that one is from its neighbours.
- * */
+/* Surface is bare that is so many times farther from the nearest place than that one from its neighbours. */
 static const double FAR = 4;
 
-/* Spacings that a result and its points may be apart at any place.  54 uniform clouds: 5 are farther, all
- * wrong there. */
+/* Spacings that a result and its points may be apart anywhere.  54 uniform clouds: 5 farther, all wrong. */
 static const double WIDE = 3;
 
 /* The share of the area that may be bare without a warning. */
@@ -32,8 +30,7 @@ mr_gap_of(double *distance, size_t n)
 	return side;
 }
 
-/* The i-th of equal areas' place within its face: the sequence R2 (Roberts 2018), folded into the triangle.
- */
+/* The i-th of equal areas' place within its face: R2 (Roberts 2018), folded into the triangle. */
 static mr_v3
 place_in(const mr_mesh *m, size_t face, size_t i)
 {
@@ -117,8 +114,7 @@ mr_gap_spots_report(mr_ctx *ctx, const char *layer, const mr_gaps *gaps, const m
 				  .at = of_points->at });
 }
 
-/* Shares of the diagonal that a surface and its mesh may be apart at any place, and but for OFF_MOST of
- * either. */
+/* Shares of the diagonal that a surface and its mesh may be apart anywhere, and but for OFF_MOST. */
 static const double FAR_OF_MESH = 0.018, OFF = 0.005, OFF_MOST = 0.02;
 
 void

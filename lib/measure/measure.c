@@ -1,5 +1,4 @@
-/* Counts by the table of edges and by sets of corners that hang together, sizes and shapes by sums over them.
- */
+/* Counts by the table of edges and sets of connected corners, sizes and shapes by sums over them. */
 #include "measure/measure.h"
 
 #include "base/disjoint_sets.h"

@@ -159,8 +159,7 @@ box(mr_text *t, const mr_box *b, bool json)
 	mr_text_add(t, json ? "]]" : "\n");
 }
 
-/* The figures of the struct at `values`, and its box. json: members of an object, with a comma before each;
- * else lines. */
+/* The figures of the struct at `values`, and its box.  json: members of an object, a comma before each. */
 static void
 figures(mr_text *t, const figure *table, size_t n, const void *values, const mr_box *b, bool json)
 {

@@ -1,5 +1,4 @@
-/* attributes.h -- what the columns by convention are, and what becomes of columns whose rows are made of
- * other rows. */
+/* attributes.h -- what the columns by convention are, and what becomes of them in rows made of others. */
 #ifndef MR_MESH_ATTRIBUTES_H
 #define MR_MESH_ATTRIBUTES_H
 

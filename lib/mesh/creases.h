@@ -1,5 +1,4 @@
-/* creases.h -- normals to shade a surface by: faces that meet at more than 45 degrees are not shaded as one.
- */
+/* creases.h -- normals for shading: faces that meet at more than 45 degrees are not shaded as one. */
 #ifndef MR_MESH_CREASES_H
 #define MR_MESH_CREASES_H
 

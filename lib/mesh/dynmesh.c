@@ -157,8 +157,7 @@ remove_face(mr_dyn *d, uint32_t f)
 	d->free_f = f;
 }
 
-/* Cuts the face of h = a -> b at m: it becomes (a, m, c), and face f (m, b, c).  The caller links the halves
- * of h. */
+/* Cuts the face of h = a -> b at m to (a, m, c) and face f = (m, b, c); the caller links the halves of h. */
 static void
 cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 {

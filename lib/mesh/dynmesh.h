@@ -161,19 +161,16 @@ void mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p);
 /* True where the edge has two faces, is no curve, and its opposite vertices are not joined yet. */
 bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
 
-/* Replaces the edge of h by the one between its opposite vertices: mr_he_next(h).  Only where
- * mr_dyn_can_flip. */
+/* Replaces the edge of h by the one across, mr_he_next(h).  Only where mr_dyn_can_flip. */
 void mr_dyn_flip(mr_dyn *d, uint32_t h);
 
 /* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 
-/* Renumbers vertices along a space-filling curve, faces by their lowest vertex.  Only after mr_dyn_compact.
- * */
+/* Renumbers vertices along a Z curve, faces by their lowest vertex.  Only after mr_dyn_compact. */
 void mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
 
-/* The mesh as it is, sharing the arrays; its holes, until mr_dyn_compact, are faces whose first corner is
- * MR_NONE. */
+/* The mesh, sharing the arrays; its holes, until mr_dyn_compact, are faces that begin with MR_NONE. */
 mr_mesh mr_dyn_view(const mr_dyn *d, const char *name);
 
 #endif

@@ -1,12 +1,10 @@
-/* edges.h -- the edges of any mesh, manifold or not, each with all its half-edges; without faces that have a
- * vertex twice. */
+/* edges.h -- the edges of any mesh, each with all its half-edges; not of faces with a vertex twice. */
 #ifndef MR_MESH_EDGES_H
 #define MR_MESH_EDGES_H
 
 #include "mesh/fold.h"
 
-/* Edge e has the half-edges he[start[e]] to he[start[e + 1]], by index; edges are ordered by their lower,
- * then higher vertex. */
+/* Edge e has he[start[e]] to he[start[e + 1]], by index; edges are ordered by lower, then higher vertex. */
 typedef struct mr_edges {
 	size_t count;
 	uint32_t *start; /* count + 1 */
@@ -16,8 +14,7 @@ typedef struct mr_edges {
 /* The edges of m, in the arena. */
 void mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *edges);
 
-/* Whether two half-edges of one edge run along it in the same direction: their faces are not oriented alike.
- */
+/* Whether two half-edges of one edge run in the same direction: their faces are not oriented alike. */
 static inline bool
 mr_same_direction(const mr_mesh *m, uint32_t h, uint32_t g)
 {

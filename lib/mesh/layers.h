@@ -39,8 +39,7 @@ void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 /* Whether the layer has moved since it was encoded, and what is over it has not followed. */
 mr_status mr_layer_is_posed(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
 
-/* Whether mesh has detail over base of which mr-decode is still to come: once it has, the detail has served.
- */
+/* Whether mesh has detail over base that no mr-decode has served yet. */
 mr_status mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has);
 
 /* Drops the columns of a kind. */

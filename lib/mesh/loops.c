@@ -115,8 +115,7 @@ normal_of(const span *s, size_t i, size_t j, size_t apex)
 	return mr_cross(mr_sub(s->p[s->corner[j]], p), mr_sub(s->p[s->corner[apex]], p));
 }
 
-/* The normal beyond the edge between corners i and j: that of the triangle chosen there, or of the surface.
- */
+/* The normal beyond the edge between corners i and j: of the triangle chosen there, or the surface. */
 static mr_v3
 normal_beyond(const span *s, size_t i, size_t j)
 {

@@ -50,8 +50,7 @@ mr_he_ccw(const mr_topology *topo, uint32_t h)
  * vertex twice. */
 mr_status mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo);
 
-/* Neighbours of each vertex, sorted, each once, of any mesh: adj[start[i]] to adj[start[i + 1]]; start has nv
- * + 1 entries. */
+/* Neighbours of each vertex, sorted, each once: adj[start[i]] to adj[start[i + 1]]; start has nv + 1. */
 typedef struct mr_adjacency {
 	size_t *start;
 	uint32_t *adj;
@@ -131,8 +130,7 @@ void mr_vertices_used(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool *
 
 double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
 
-/* What the faces enclose, positive where their normals point outward; of a surface that encloses something.
- */
+/* The volume that the faces enclose, positive where their normals point outward. */
 double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
 /* Where the mesh is: the corners of its faces, of one without faces the vertices.  A vertex that no face has,
@@ -163,15 +161,13 @@ mr_box mr_mesh_box(const mr_mesh *m);
 /* Of that box: the unit of every relative length and error. */
 double mr_mesh_diagonal(const mr_mesh *m);
 
-/* A length that is none: `share` of the diagonal, and no less than what rounding leaves of coordinates far
- * from the origin. */
+/* A length that is none: `share` of the diagonal, at least the rounding of coordinates. */
 double mr_mesh_tolerance(const mr_mesh *m, double share);
 
 /* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
 double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
 
-/* Unit vertex normals weighted by angle (Thuermer, Wuethrich 1998); zero without a face of positive area.
- * normal: nv. */
+/* Unit vertex normals by angle (Thuermer, Wuethrich 1998); zero without a face of positive area. */
 void mr_vertex_normals(const mr_mesh *m, mr_v3 *normal);
 
 /* For each vertex the sum of the normals of its faces, as long as twice their areas; in the arena. */

@@ -1,12 +1,10 @@
-/* name_lists.h -- names of groups, objects and materials: a text of one a line, and a column of the lines'
- * numbers. */
+/* name_lists.h -- names of groups, objects and materials: a text, and a column of its lines' numbers. */
 #ifndef MR_MESH_NAME_LISTS_H
 #define MR_MESH_NAME_LISTS_H
 
 #include "mesh/layers.h"
 
-/* Where the lines of a text begin, count + 1 of them, each behind the newline of the one before; in the
- * arena, over the text. */
+/* Where the lines of a text begin, count + 1, each behind a newline; in the arena, over the text. */
 void mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count);
 
 enum { MR_NAMINGS = 3 };

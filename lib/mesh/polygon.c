@@ -71,8 +71,7 @@ fan(const polygon *g, size_t first, mr_tri *t)
 		emit(t++, first, (first + i) % g->n, (first + i + 1) % g->n);
 }
 
-/* The first corner whose fan has triangles of positive area only, all corners being convex; n where there is
- * none. */
+/* The first corner whose fan has triangles of positive area only, all corners being convex; else n. */
 static size_t
 fan_corner(const polygon *g)
 {
@@ -177,8 +176,7 @@ ears(mr_ctx *ctx, polygon *g, mr_tri *t)
 	clip_ears(g, t);
 }
 
-/* The triangle with the edge from 0 to 1 comes first and begins with it: there mr_polygons_find begins, too.
- */
+/* The triangle with the edge from 0 to 1 comes first: there mr_polygons_find begins, too. */
 static void
 put_first(mr_tri *t, size_t n)
 {
@@ -241,8 +239,7 @@ outer_from(const mr_mesh *m, size_t first, size_t end, uint32_t vertex)
 	return found;
 }
 
-/* The polygon of triangles first to end: their outline, where it is one loop with all their corners; else
- * false. */
+/* The outline of triangles first to end, where it is one loop with all their corners; else false. */
 static bool
 find_outline(const mr_mesh *m, size_t first, size_t end, uint32_t *corner)
 {

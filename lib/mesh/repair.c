@@ -159,8 +159,7 @@ below(const surface *s, uint32_t f, mr_v3 o)
 	return mr_dot(mr_sub(p[v[0]], o), mr_cross(mr_sub(p[v[1]], o), mr_sub(p[v[2]], o)));
 }
 
-/* Six times the volume below the faces, as turned, seen from the first one: its sign tells inside from
- * outside. */
+/* Six times the volume below the faces, as turned: its sign tells inside from outside. */
 static double
 volume(const surface *s, const uint32_t *face, size_t n, const bool *turned)
 {
@@ -234,8 +233,7 @@ orient_part(const surface *s, const uint32_t *face, size_t n, bool closed, bool 
 		turned[face[k]] = !turned[face[k]];
 }
 
-/* Counts the closed parts of less than no volume.  In the order of the faces, which is much faster than that
- * of a walk. */
+/* Counts the closed parts of negative volume; in the order of faces, which is faster than a walk. */
 static void
 count_inward(surface *s, const uint32_t *part, const uint32_t *closed, size_t parts)
 {

@@ -7,8 +7,7 @@
 
 enum { MR_VALUES = 5 };
 
-/* Faces that say value i is g.x + d: the sum of w (g.x + d)^2 over faces and values, that of w (g.x + d), and
- * of w. */
+/* Faces that say value i is g.x + d: the sums of w (g.x + d)^2, of w (g.x + d), and of w. */
 typedef struct mr_field {
 	mr_quadric squares;
 	mr_v3 g[MR_VALUES];

@@ -1,5 +1,4 @@
-/* laplace.h -- the cotangent Laplacian of any mesh with valid indices and finite positions: every weight is
- * finite. */
+/* laplace.h -- the cotangent Laplacian of any mesh with valid indices; every weight is finite. */
 #ifndef MR_OP_LAPLACE_H
 #define MR_OP_LAPLACE_H
 

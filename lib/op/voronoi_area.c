@@ -1,5 +1,4 @@
-/* Meyer, Desbrun, Schroeder, Barr 2003: Discrete differential-geometry operators for triangulated
- * 2-manifolds. */
+/* Meyer, Desbrun, Schroeder, Barr 2003: Discrete differential-geometry operators. */
 #include "op/voronoi_area.h"
 
 #include "base/parallel.h"

@@ -1,16 +1,13 @@
-/* voronoi_area.h -- the area that belongs to each vertex of any mesh with valid indices; the sum is the
- * mesh's area. */
+/* voronoi_area.h -- the area that belongs to each vertex of any mesh; the sum is the mesh's area. */
 #ifndef MR_OP_VORONOI_AREA_H
 #define MR_OP_VORONOI_AREA_H
 
 #include "mesh/mesh.h"
 
-/* Mixed Voronoi areas: circumcentric parts, edge midpoints in obtuse triangles; 0 without a face of positive
- * area.  area: nv. */
+/* Mixed Voronoi areas: circumcentric parts, edge midpoints in obtuse triangles.  area: nv. */
 void mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area);
 
-/* The parts of the triangle a b c that belong to its corners; their sum is its area.  Zero where it has none.
- */
+/* The parts of the triangle a b c that belong to its corners; their sum is its area. */
 static inline void
 mr_voronoi_corners(mr_v3 a, mr_v3 b, mr_v3 c, double part[3])
 {

@@ -9,8 +9,7 @@ enum { SUBTEXEL = 256, BAND = 64, NEAR = 8, GRAIN = 512 };
 
 /* ---- which face a texel is on ---- */
 
-/* A face in the texture: whole 256ths of a texel from the centre of the first, y downwards.  What is computed
- * of them is exact. */
+/* A face in the texture, y downwards, in whole 256ths of a texel: what is computed of them is exact. */
 typedef struct footprint {
 	double x[3], y[3];
 } footprint;

@@ -38,8 +38,7 @@ typedef struct mr_baked {
 mr_status
 mr_bake_draw(mr_ctx *ctx, const mr_bake_source *s, const mr_bake_target *t, mr_baked *baked) MR_WARN_UNUSED;
 
-/* The share of side x side texels on a face that are within another, too.  meet: is called with the two; or
- * NULL. */
+/* The share of side x side texels on a face that are within another, too.  meet: for the two; or NULL. */
 double mr_texture_overlap(mr_ctx *ctx, size_t nf, const double *uv, size_t side,
     void (*meet)(void *arg, uint32_t a, uint32_t b), void *arg);
 

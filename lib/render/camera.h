@@ -17,8 +17,7 @@ typedef struct mr_camera {
  * that stands upright on the axis `up`.  False: there is no such view. */
 bool mr_camera_view(const char *name, mr_v3 up, mr_v3 *from);
 
-/* A point as the camera sees it: pixels, the factor by which perspective enlarges it, and the height towards
- * the eye. */
+/* A point as the camera sees it: pixels, enlargement by perspective, height towards the eye. */
 typedef struct mr_seen {
 	double x, y, enlarged, z;
 } mr_seen;
@@ -36,8 +35,7 @@ void mr_camera_aim(mr_camera *c, mr_box box);
 /* Grows the rectangle (x, y of the box) that they cover in the picture at a scale of 1. */
 void mr_camera_cover(const mr_camera *c, const mr_mesh *m, mr_box *covered);
 
-/* Sets scale and place so that the covered rectangle fills the middle of w by h pixels at
- * (left, top). */
+/* Sets scale and place so that the rectangle fills the middle of w by h pixels at (left, top). */
 void mr_camera_fit(mr_camera *c, mr_box covered, double left, double top, double w, double h);
 
 mr_seen mr_camera_see(const mr_camera *c, mr_v3 p);

@@ -24,8 +24,7 @@ enum { MR_TEXT_ADVANCE = 6, MR_TEXT_LINE = 10 };
  * pixels high, letters 6 apart. */
 void mr_image_text(mr_image *image, double x, double y, double unit, mr_rgb color, const char *text);
 
-/* A letter's nine rows of five bits, from the left and from the top, highest first; rows 7 and 8 hang below
- * the line. */
+/* A letter's nine rows of five bits, from the left and from the top, highest first; two hang below. */
 uint64_t mr_glyph(char letter);
 
 #endif

@@ -29,8 +29,7 @@ typedef struct mr_gallery {
 	size_t panels, panel_room, frames, frame_room;
 } mr_gallery;
 
-/* Adds a frame, copying what it needs into the arena `keep`.  MR_EMISSING where a layer or the column is
- * missing. */
+/* Adds a frame, copied into the arena `keep`.  MR_EMISSING where a layer or the column is missing. */
 mr_status
 mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts);
 

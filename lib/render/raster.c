@@ -1,5 +1,4 @@
-/* Which face or point is seen in each sample: edge functions (Pineda 1988) in whole steps, a depth buffer,
- * bands of rows. */
+/* Which face or point each sample sees: edge functions (Pineda 1988), a depth buffer, bands of rows. */
 #include "render/raster_parts.h"
 
 #include "base/parallel.h"
@@ -197,8 +196,7 @@ draw_bands(void *arg, size_t begin, size_t end)
 		draw_band(arg, b);
 }
 
-/* Radius at which the balls of a closed surface, half of which is seen, about cover what it covers of the
- * picture. */
+/* Radius at which the balls of a closed surface, half of which is seen, about cover it. */
 static double
 covering_radius(const mr_raster_view *v)
 {

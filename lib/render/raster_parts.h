@@ -1,5 +1,4 @@
-/* raster_parts.h -- what raster.c (which item is seen where) and shade.c (its colour) share.  Private to this
- * room. */
+/* raster_parts.h -- what raster.c and shade.c share.  Private to this room. */
 #ifndef MR_RENDER_RASTER_PARTS_H
 #define MR_RENDER_RASTER_PARTS_H
 

@@ -1,5 +1,4 @@
-/* Colours of what is seen: three lights and a bright sky over a matte surface, in linear values that become
- * sRGB. */
+/* Colours of what is seen: three lights and a bright sky over a matte surface, in linear values. */
 #include "render/raster_parts.h"
 
 #include "base/parallel.h"

@@ -1,5 +1,4 @@
-/* The bumpy creature: a smooth implicit body around a skeleton, polygonised and relaxed, subdivided, under a
- * skin of scales. */
+/* The bumpy creature: an implicit body around a skeleton, relaxed, subdivided, under a skin of scales. */
 #include "shape/shape.h"
 
 #include "base/parallel.h"

@@ -137,8 +137,7 @@ torus_point(double u, double v)
 
 static const double KNOT_RADIUS = 0.45, KNOT_TUBE = 0.2, KNOT_LENGTH = 15.337059286565475; /* of the curve */
 
-/* The curve runs on a torus, twice around it and three times around its tube; the torus's normal is at right
- * angles to it. */
+/* The curve runs on a torus, twice around it and three times around its tube, across its normal. */
 static mr_v3
 knot_point(double u, double v)
 {
@@ -168,8 +167,7 @@ plane(build *b, size_t n)
 	add_grid(b, s, s, "0321", plane_place, &s);
 }
 
-/* A ring of `count` vertices of the given radius at height z; a ring of none is its centre.  The first of
- * them. */
+/* A ring of `count` vertices at height z; a ring of none is its centre.  The first of them. */
 static size_t
 add_ring(build *b, size_t count, double radius, double z)
 {
@@ -184,8 +182,7 @@ add_ring(build *b, size_t count, double radius, double z)
 	return first;
 }
 
-/* Faces between two rings, the outer one of m vertices counter-clockwise seen from outside, the inner one of
- * n. */
+/* Faces between two rings of m and n vertices, the outer one counter-clockwise seen from outside. */
 static void
 join_rings(build *b, size_t outer, size_t m, size_t inner, size_t n, bool flip)
 {
@@ -276,8 +273,7 @@ add_cell(build *b, const cells *c, const size_t cell[3])
 		}
 }
 
-/* `sides` of the solid's cells are outside, `genus` is that of the whole: sides s^2 + 2 - 2 genus vertices.
- */
+/* `sides` of the cells are outside, `genus` is of the whole: sides s^2 + 2 - 2 genus vertices. */
 static void
 add_cells(build *b, cells *c, size_t sides, size_t genus, size_t n)
 {
@@ -429,8 +425,7 @@ mr_add_noise(mr_v3 *p, const mr_v3 *normal, size_t n, double deviation, uint64_t
 		p[i] = mr_axpy(deviation * gaussian(&r), normal[i], p[i]);
 }
 
-/* ---- texture coordinates: of a plane its own places, else around the upright axis, with a seam at the half
- * turn ---- */
+/* ---- texture coordinates: of a plane its own places, else around the upright axis ---- */
 
 /* With the axis along z; bumpy, which stands on y, looks along x, where the middle of the picture is. */
 static mr_v3
@@ -445,8 +440,7 @@ on_axis(mr_v3 p)
 	return hypot(p.x, p.y) < 1e-9;
 }
 
-/* The corners of a face around the axis: none a half turn from the first; one on the axis between the others.
- */
+/* The corners of a face around the axis: none a half turn from the first; one on it between the others. */
 static void
 wrap_face(const mr_v3 p[3], double uv[6])
 {

@@ -105,8 +105,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	return put_columns(ctx, f, d.m.nv);
 }
 
-/* Whether it is the control mesh that handles pose, or else that, or the heights over it, that were worked on
- * last. */
+/* Whether handles pose control, or else it, or the heights over it, were worked on last. */
 static mr_status
 is_control_latest(mr_ctx *ctx, mr_frame *f, bool *is)
 {

@@ -1,5 +1,4 @@
-/* What mr-import does to a surface that has come apart, in the order in which each needs what was done
- * before. */
+/* What mr-import does to a surface that has come apart, in an order in which each needs the last. */
 #include "tool/tool.h"
 
 #include "base/text.h"

@@ -5,8 +5,7 @@
 #include "mesh/layers.h"
 #include "space/near.h"
 
-/* A normal that is there fits where it is within 60 degrees of its place's plane: beyond it is of another
- * side. */
+/* A normal that is there fits within 60 degrees of its place's plane: beyond it is of another side. */
 static const double FITS = 0.5;
 
 /* The points that have a place of their own, as places: place k is point `of`[k]. */

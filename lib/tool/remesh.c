@@ -1,5 +1,4 @@
-/* mr-remesh: a base, or a mesh, to an isotropic base; its places on the mesh are composed with those there
- * are. */
+/* mr-remesh: a base, or a mesh, to an isotropic base; its places on the mesh are composed. */
 #include "remesh/remesh.h"
 
 #include "base/options.h"

@@ -19,8 +19,7 @@ wrap_control(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_sampling 
 	return mr_layer_move(ctx, f, "control", MR_RESHAPED, p, control.nv);
 }
 
-/* The outer sides of the points: their normals, or from where they were seen; toward NULL: neither is there.
- */
+/* The outer sides of the points: their normals, or from where they were seen; toward NULL: neither. */
 static mr_status
 get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides)
 {

@@ -16,8 +16,7 @@ enum { FACES_A_FACE = 10 };
  * be webbed where it joins. */
 static const double OFF = 0.3;
 
-/* Of the diagonal, that a control mesh may be off a mesh by default, as long as it has no more faces than a
- * mesh that is its own. */
+/* Of the diagonal, that a control mesh of a mesh may be off by default, with no more than OWN faces. */
 static const double NEAR = 5e-4;
 enum { OWN = 2000 };
 
@@ -42,8 +41,7 @@ read_points(mr_ctx *ctx, mr_frame *f, const char *result_layer, mr_simplify_clou
 	    ctx, c->p, c->n, &c->near);
 }
 
-/* The limits of a control mesh for points: as few faces as are enough for so many, or more where it would be
- * off. */
+/* The limits of a control mesh for points: faces enough for so many, or more where it would be off. */
 static void
 limit_by_points(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opts *o)
 {
@@ -73,8 +71,7 @@ limit_by_mesh(mr_ctx *ctx, const mr_mesh *m, mr_simplify_opts *o)
 	o->most = o->faces > OWN ? o->faces : OWN;
 }
 
-/* Where to stop where nothing says so.  A control mesh is made for the points, or for the mesh that it comes
- * from. */
+/* Where to stop by default: by the points, or by the mesh that a control mesh comes from. */
 static void
 limit_by_frame(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opts *o)
 {

@@ -76,8 +76,7 @@ read_maps(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_maps **map
 	return MR_OK;
 }
 
-/* The column with the positions that a layer has at rest: to pose those of the undeformed solve, if there was
- * one. */
+/* The column with a layer's positions at rest: to pose, those of the undeformed solve, if there was one. */
 static mr_status
 read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **column)
 {
@@ -104,8 +103,7 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
 }
 
-/* A control mesh that leaves for the first time the place of its displacement, or is posed without one: where
- * that was. */
+/* Where a control mesh was that leaves its displacement for the first time, or is posed without one. */
 static mr_status
 keep_encoded(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool posing)
 {

@@ -17,8 +17,7 @@ typedef struct parts {
 	size_t given;                      /* so many are large enough */
 } parts;
 
-/* Sorts n rows by part, those of one in ascending order.  part_of: of row i is that of vertex of[i], NULL: i.
- */
+/* Sorts n rows by part, those of one in ascending order.  t: rows are of faces; NULL: of vertices. */
 static void
 sort_rows(mr_ctx *ctx, const mr_connected *c, const mr_tri *t, size_t n, uint32_t **row, size_t **first)
 {

@@ -10,12 +10,10 @@
 mr_status mr_layer_mend(
     mr_ctx *ctx, mr_frame *f, const char *layer, const mr_import_opts *o, double unit) MR_WARN_UNUSED;
 
-/* True where it is triangles that lines along the normals meet, not points.  layer: NULL: points, else mesh.
- */
+/* True where lines along the normals meet triangles, not points.  layer: NULL: points, else mesh. */
 bool mr_sample_meets_faces(const mr_frame *f, const char *layer);
 
-/* Reports MR_STALE, of key frames, where control has moved and `from`, which is fitted and sampled, has not
- * followed. */
+/* Reports MR_STALE, of keys, where control has moved and `from`, which is sampled, has not followed. */
 mr_status mr_sample_report_move(mr_ctx *ctx, mr_frame *f, const char *from);
 
 /* mr_select_frame and mr_crop_frame, which frees what is kept, for rules that were parsed before. */
