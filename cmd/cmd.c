@@ -652,7 +652,7 @@ work_on(cmd *c, mr_frame *f)
 		MR_TRY(mr_frame_add_history(&c->ctx, f, c->state->history));
 	c->result = c->stats && tool->figures ? MR_NEW_ZERO(&c->ctx, CMD_RESULT, char) : NULL;
 	MR_TRY(tool->frame(c, f));
-	if (c->result)
+	if (c->result && tool->figures)
 		cmd_figures(c, tool->figures, c->result);
 	if (c->sink)
 		return findings_settle(&c->ctx, &c->state->book, f, c->quiet ? NULL : show_warning);

@@ -84,6 +84,7 @@ parse_real(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text, bo
 		if (x < o->min || x > o->max)
 			return fail_range(ctx, what, text, o->min, o->max);
 	}
+	/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference) only CMD_CALL has no value */
 	*(double *)o->value = x;
 	if (relative)
 		*relative = percent;

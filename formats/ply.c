@@ -94,15 +94,6 @@ header_type(ply *f, mr_scan *line, type *t)
 	return mr_scan_fail(&f->text, w, "'%s' is no type of PLY", mr_word_shown(w, n, shown));
 }
 
-/* Of a list of faces. */
-static role
-role_of(const char *w, size_t n)
-{
-	if (mr_word_is(w, n, "vertex_indices") || mr_word_is(w, n, "vertex_index"))
-		return INDICES;
-	return mr_word_is(w, n, "texcoord") ? UVS : NONE;
-}
-
 static mr_status
 header_property(ply *f, mr_scan *line)
 {
@@ -121,7 +112,10 @@ header_property(ply *f, mr_scan *line)
 	}
 	MR_TRY(header_type(f, line, &p.value));
 	MR_TRY(header_word(f, line, "a property lacks its name", &w, &n));
-	p.role = e->kind >= FACE && p.list ? role_of(w, n) : NONE;
+	if (e->kind >= FACE && p.list)
+		p.role = mr_word_is(w, n, "vertex_indices") || mr_word_is(w, n, "vertex_index") ? INDICES
+		         : mr_word_is(w, n, "texcoord")                                         ? UVS
+		                                                                                : NONE;
 	p.name = mr_clean_copy(f->ctx, w, n);
 	if (has(e, p.role))
 		p.role = NONE; /* the first of a name counts */
