@@ -5,19 +5,37 @@
  */
 static const uint32_t FIRST = MR_NONE - MR_BUCKETS;
 
+static mr_buckets *
+queue_of(mr_ctx *ctx, uint32_t *next, uint32_t *prev)
+{
+	mr_buckets *b = MR_NEW_ZERO(ctx, 1, mr_buckets);
+
+	b->head = MR_NEW(ctx, MR_BUCKETS, uint32_t);
+	memset(b->head, 0xff, MR_BUCKETS * sizeof *b->head);
+	b->next = next;
+	b->prev = prev;
+	return b;
+}
+
 void
 mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out)
 {
-	mr_buckets *b = MR_NEW_ZERO(ctx, 1, mr_buckets);
 	uint32_t *next = MR_NEW(ctx, n, uint32_t), *prev = MR_NEW(ctx, n, uint32_t);
-	uint32_t *head = MR_NEW(ctx, MR_BUCKETS, uint32_t);
 
 	memset(prev, 0xff, n * sizeof *prev);
-	memset(head, 0xff, MR_BUCKETS * sizeof *head);
-	b->next = next;
-	b->prev = prev;
-	b->head = head;
-	*out = b;
+	*out = queue_of(ctx, next, prev);
+}
+
+void
+mr_buckets_clear(mr_buckets *b, size_t n)
+{
+	memset(b->prev, 0xff, n * sizeof *b->prev);
+}
+
+mr_buckets *
+mr_buckets_beside(mr_ctx *ctx, const mr_buckets *b)
+{
+	return queue_of(ctx, b->next, b->prev);
 }
 
 void
@@ -70,17 +88,25 @@ lowest(uint64_t x)
 }
 
 uint32_t
+mr_buckets_lowest(const mr_buckets *b)
+{
+	for (uint32_t i = 0; i < MR_BUCKETS / 64 / 64; i++)
+		if (b->words[i]) {
+			uint32_t word = 64 * i + lowest(b->words[i]);
+			return 64 * word + lowest(b->bits[word]);
+		}
+	return MR_BUCKETS;
+}
+
+uint32_t
 mr_buckets_take(mr_buckets *b, uint32_t *bucket)
 {
-	for (uint32_t i = 0; i < MR_BUCKETS / 64 / 64; i++) {
-		uint32_t word, item;
-		if (!b->words[i])
-			continue;
-		word = 64 * i + lowest(b->words[i]);
-		*bucket = 64 * word + lowest(b->bits[word]);
-		item = b->head[*bucket];
-		mr_buckets_remove(b, item);
-		return item;
-	}
-	return MR_NONE;
+	uint32_t item;
+
+	*bucket = mr_buckets_lowest(b);
+	if (*bucket == MR_BUCKETS)
+		return MR_NONE;
+	item = b->head[*bucket];
+	mr_buckets_remove(b, item);
+	return item;
 }

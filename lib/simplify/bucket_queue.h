@@ -21,6 +21,16 @@ typedef struct mr_buckets {
 /* An empty queue for items below n, which is at most 2^32 - 1 - MR_BUCKETS, in the arena. */
 void mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out);
 
+/* An empty queue for other items of the same numbers, in the arena: none is ever in both. */
+mr_buckets *mr_buckets_beside(mr_ctx *ctx, const mr_buckets *b);
+
+/* Forgets the n items of all queues that share their numbers, whose buckets must not be used again but b's,
+ * which is empty. */
+void mr_buckets_clear(mr_buckets *b, size_t n);
+
+/* The lowest bucket that is not empty; MR_BUCKETS where all are. */
+uint32_t mr_buckets_lowest(const mr_buckets *b);
+
 /* The bucket of a key >= 0: a greater key has no lower bucket. */
 static inline uint32_t
 mr_bucket_of(float key)

@@ -36,10 +36,11 @@ typedef struct simplifier {
 	size_t fine;       /* faces at which the mesh is kept, lest the most be too few; 0: nowhere */
 	bool kept;         /* before there is room for any error */
 	size_t faces, merges;
-	double longest; /* edge to be merged, as long as there is room: beside long ones short ones of a
-	                   crease swing */
-	double error2;  /* greatest of the merges done */
-	double needle;  /* least shape of a face */
+	double longest;       /* edge to be merged, as long as there is room: beside long ones short ones of a
+	                         crease swing */
+	double error2;        /* greatest of the merges done */
+	double needle;        /* least shape of a face */
+	const uint8_t *inner; /* of each vertex: only such are merged; NULL: all are */
 } simplifier;
 
 /* The half-edge that an edge is known by. */
@@ -107,6 +108,12 @@ fuse_sides(simplifier *s, uint32_t h, uint32_t *bucket)
 	return next < prev ? next : prev;
 }
 
+static bool
+is_inner(const simplifier *s, uint32_t h)
+{
+	return !s->inner || (s->inner[s->d.v[h]] && s->inner[mr_dyn_to(&s->d, h)]);
+}
+
 /* Edges at v that were given up get another chance: what stands around them has changed. */
 static void
 retry_around(simplifier *s, uint32_t v)
@@ -116,9 +123,9 @@ retry_around(simplifier *s, uint32_t v)
 
 	do {
 		uint32_t back = mr_he_prev(h);
-		if (!mr_buckets_has(s->queue, edge_of(d, h)))
+		if (!mr_buckets_has(s->queue, edge_of(d, h)) && is_inner(s, h))
 			enqueue(s, edge_of(d, h), 0);
-		if (d->twin[back] == MR_NONE && !mr_buckets_has(s->queue, back))
+		if (d->twin[back] == MR_NONE && !mr_buckets_has(s->queue, back) && is_inner(s, back))
 			enqueue(s, back, 0);
 		h = d->twin[back];
 	} while (h != MR_NONE && h != d->out[v]);
@@ -145,8 +152,7 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 		s->site[a].rim || s->site[b].rim, s->site[b].field };
 	s->onto[a] = b;
 	s->faces -= g == MR_NONE ? 1 : 2;
-	if (++s->merges % 8192 == 0)
-		mr_progress(s->ctx, "merging", (double)s->merges / (double)(d->nv - s->target / 2));
+	s->merges++;
 	s->error2 = fmax(s->error2, m->error2);
 	if (bucket[0] != UNKNOWN)
 		enqueue(s, side, bucket[0]);
@@ -449,58 +455,125 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 	*r = (mr_simplify_result){ nv, nf, s->merges, 0, sqrt(s->error2) / s->scale };
 }
 
-static inline void
-ask_for_face(const mr_dyn *d, uint32_t h)
+/* Vertices with numbers close to each other, which are neighbours: a part of the mesh that a thread works on.
+ */
+enum { BLOCK = 1 << 14 };
+
+/* How many times as many faces as in the end the blocks are left with: what they keep between them is finer.
+ */
+static const double SPARE = 8;
+/* Buckets by which costs double: the blocks' merges keep step with each other. */
+enum { DOUBLED = 128 };
+
+typedef struct blocks {
+	simplifier *part;
+	uint32_t level; /* buckets above it wait */
+} blocks;
+
+static void
+serve_blocks(void *arg, size_t begin, size_t end)
 {
-	__builtin_prefetch(&d->v[h]);
-	__builtin_prefetch(&d->twin[h]);
+	const blocks *w = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		simplifier *s = &w->part[i];
+		uint32_t bucket;
+		while (mr_buckets_lowest(s->queue) <= w->level) {
+			uint32_t h = mr_buckets_take(s->queue, &bucket);
+			serve(s, h, bucket);
+		}
+	}
 }
 
-static inline void
-ask_for_vertex(const simplifier *s, uint32_t v)
-{
-	__builtin_prefetch(&s->site[v]);
-	__builtin_prefetch(&s->site[v].room);
-	__builtin_prefetch(&s->d.p[v]);
-}
-
-/* The vertex across from h, and the faces there. */
-static inline void
-ask_across(const simplifier *s, uint32_t h)
-{
-	uint32_t next = s->d.twin[mr_he_next(h)], prev = s->d.twin[mr_he_prev(h)];
-
-	ask_for_vertex(s, mr_dyn_apex(&s->d, h));
-	if (next != MR_NONE)
-		ask_for_face(&s->d, next);
-	if (prev != MR_NONE)
-		ask_for_face(&s->d, prev);
-}
-
-/* Takes the next edge, and asks memory for what the three after it need, step by step: they are anywhere. */
-static uint32_t
-take(const simplifier *s, uint32_t *bucket)
+/* Of each vertex, whether all faces around it are of one block; *between: the faces of several. */
+static const uint8_t *
+find_inner(const simplifier *s, size_t *between)
 {
 	const mr_dyn *d = &s->d;
-	uint32_t taken = mr_buckets_take(s->queue, bucket),
-		 h = taken == MR_NONE ? taken : s->queue->head[*bucket];
+	uint8_t *inner = MR_NEW(s->ctx, d->nv, uint8_t);
 
-	for (int k = 0; k < 3 && h != MR_NONE; h = s->queue->next[h], k++)
-		if (k == 0) {
-			ask_across(s, h);
-			if (d->twin[h] != MR_NONE)
-				ask_across(s, d->twin[h]);
-		} else if (k == 1) {
-			ask_for_vertex(s, d->v[h]);
-			ask_for_vertex(s, mr_dyn_to(d, h));
-			if (d->twin[h] != MR_NONE)
-				ask_for_face(d, d->twin[h]);
-		} else {
-			ask_for_face(d, h);
-			__builtin_prefetch(&s->queue->next[h]);
-			break;
-		}
-	return taken;
+	memset(inner, 1, d->nv);
+	for (size_t f = 0; f < d->nf; f++) {
+		const uint32_t *v = &d->v[3 * f];
+		if (v[0] / BLOCK == v[1] / BLOCK && v[1] / BLOCK == v[2] / BLOCK)
+			continue;
+		inner[v[0]] = inner[v[1]] = inner[v[2]] = 0;
+	}
+	*between = 0;
+	for (size_t f = 0; f < d->nf; f++) {
+		const uint32_t *v = &d->v[3 * f];
+		*between += !inner[v[0]] || !inner[v[1]] || !inner[v[2]];
+	}
+	return inner;
+}
+
+/* Queues of the blocks' own edges.  *between: faces that do not change. */
+static simplifier *
+divide(simplifier *s, size_t n, size_t *between)
+{
+	simplifier *part = MR_NEW(s->ctx, n, simplifier);
+	const uint8_t *inner = find_inner(s, between);
+
+	for (size_t i = 0; i < n; i++) {
+		part[i] = *s;
+		part[i].faces = 0;
+		part[i].inner = inner;
+		part[i].queue = mr_buckets_beside(s->ctx, s->queue);
+	}
+	mr_parallel(s->ctx, 3 * s->d.nf, 4096, compute_body, s);
+	for (uint32_t h = 3 * (uint32_t)s->d.nf; h-- > 0;) {
+		simplifier *own = &part[s->d.v[h] / BLOCK];
+		if (s->bucket[h] != UNKNOWN && is_inner(own, h))
+			mr_buckets_put(own->queue, h, s->bucket[h]);
+	}
+	return part;
+}
+
+/* Adds up what the blocks have done so far. */
+static void
+gather(simplifier *s, const simplifier *part, size_t n)
+{
+	s->merges = 0;
+	s->faces = s->d.nf;
+	for (size_t i = 0; i < n; i++) {
+		s->merges += part[i].merges;
+		s->faces += part[i].faces; /* less than nothing, modulo 2^64 */
+		s->error2 = fmax(s->error2, part[i].error2);
+	}
+}
+
+static uint32_t
+lowest_of(const simplifier *part, size_t n)
+{
+	uint32_t lowest = MR_BUCKETS;
+
+	for (size_t i = 0; i < n; i++) {
+		uint32_t own = mr_buckets_lowest(part[i].queue);
+		lowest = own < lowest ? own : lowest;
+	}
+	return lowest;
+}
+
+/* Merges within blocks, on all threads, the cheapest first; what spans two blocks stays as it is. */
+static void
+merge_in_blocks(simplifier *s)
+{
+	size_t n = (s->d.nv + BLOCK - 1) / BLOCK, most = s->target > s->most ? s->target : s->most, between;
+	double enough = SPARE * (double)(most > s->fine ? most : s->fine);
+	blocks w = { 0 };
+
+	if (n < 3 || (double)s->faces <= enough)
+		return;
+	MR_SCOPE(s->ctx);
+	w.part = divide(s, n, &between);
+	enough += (double)between;
+	for (; (double)s->faces > enough && (w.level = lowest_of(w.part, n)) < MR_BUCKETS;) {
+		w.level += DOUBLED;
+		mr_parallel(s->ctx, n, 1, serve_blocks, &w);
+		gather(s, w.part, n);
+		mr_progress(s->ctx, "merging", (double)s->merges / (double)(s->d.nv - s->target / 2));
+	}
+	mr_buckets_clear(s->queue, 3 * s->d.nf);
 }
 
 /* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged. */
@@ -509,11 +582,12 @@ merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 {
 	size_t before;
 
+	merge_in_blocks(s);
 	do {
 		uint32_t h, bucket;
 		before = s->merges;
 		fill_queue(s);
-		while (s->faces > s->target && (h = take(s, &bucket)) != MR_NONE) {
+		while (s->faces > s->target && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE) {
 			serve(s, h, bucket);
 			if (!s->kept && s->faces <= s->fine) {
 				keep(s, out, onto, r);

@@ -87,3 +87,7 @@ echo 'a part that is cut off, though little of the area is lost'
 for n in 60 200; do
 	mr-make bumpy -n 3000 | mr-simplify -n $n 2>&1 >out.mrs | grep -o 'what was near.*' || echo "none of $n faces"
 done
+echo 'blocks of a large mesh: the same for any number of threads, and no farther off than one block would be'
+mr-make bumpy -n 60000 -o large.mrs && mr-simplify -j 1 -n 4000 large.mrs -o out.mrs && mr-simplify -j 3 -n 4000 large.mrs | cmp - out.mrs
+mr-info --json out.mrs | grep -o '"faces":[0-9]*'
+mr-compare -a mesh -b mesh large.mrs out.mrs | awk '/both, %/ { print $4 < 0.1 ? "near" : $0 }'
