@@ -186,6 +186,38 @@ find(const cmd_opt *const tables[2], char letter, const char *name, size_t lengt
 	return NULL;
 }
 
+/* How many letters differ between what two words begin and end with alike; 0 where b goes on behind a. */
+static size_t
+unlike(const char *a, size_t n, const char *b)
+{
+	size_t m = strlen(b), shorter = n < m ? n : m, head = 0, tail = 0;
+
+	while (head < shorter && a[head] == b[head])
+		head++;
+	while (tail < shorter - head && a[n - 1 - tail] == b[m - 1 - tail])
+		tail++;
+	return head == n ? 0 : (n > m ? n : m) - head - tail;
+}
+
+/* Refuses a word that is no option, and names the one it is like: of which half is wrong at most. */
+static mr_status
+fail_unknown(mr_ctx *ctx, const cmd_opt *const tables[2], const char *word, size_t n)
+{
+	const char *like = NULL, *name = word + strspn(word, "-");
+	size_t letters = n - (size_t)(name - word), best = letters > 1 ? letters / 2 + 1 : 0;
+
+	for (int k = 0; k < 2; k++)
+		for (const cmd_opt *o = tables[k]; o && o->name; o++) {
+			size_t d = unlike(name, letters, o->name);
+			if (d < best) {
+				best = d;
+				like = o->name;
+			}
+		}
+	return mr_fail(ctx, MR_EUSAGE, "unknown option %.*s%s%s%s", (int)n, word,
+	    like ? ": did you mean --" : "", like ? like : "", like ? "?" : "");
+}
+
 typedef struct parser {
 	mr_ctx *ctx;
 	int argc, at;
@@ -240,7 +272,7 @@ parse_long(parser *p)
 	const cmd_opt *o = find(p->tables, 0, name, length, &table);
 
 	if (!o)
-		return mr_fail(p->ctx, MR_EUSAGE, "unknown option %.*s", (int)length + 2, name - 2);
+		return fail_unknown(p->ctx, p->tables, name - 2, length + 2);
 	MR_TRY(take_value(p, o, table, equals ? equals + 1 : NULL));
 	if (changes_result(o, table))
 		note_typed(p, first);
@@ -256,11 +288,11 @@ parse_short(parser *p)
 	bool noted = false;
 
 	if (letters[1] && find(p->tables, 0, letters, strlen(letters), &table))
-		return mr_fail(p->ctx, MR_EUSAGE, "unknown option -%s: a name takes two dashes", letters);
+		return fail_unknown(p->ctx, p->tables, letters - 1, strlen(letters) + 1);
 	while (*letters) {
 		const cmd_opt *o = find(p->tables, *letters, NULL, 0, &table);
 		if (!o)
-			return mr_fail(p->ctx, MR_EUSAGE, "unknown option %s", p->argv[p->at]);
+			return fail_unknown(p->ctx, p->tables, p->argv[p->at], strlen(p->argv[p->at]));
 		letters++;
 		noted = noted || changes_result(o, table);
 		if (takes_argument(o)) {
