@@ -197,9 +197,11 @@ choose_properties(ply *f)
 	for (element *e = f->element; e < f->element + f->elements; e++) {
 		if (e->kind == VERTEX)
 			choose_vertex_properties(f, e);
-		for (property *p = e->property; e->kind == FACE && p < e->property + e->properties; p++)
+		for (size_t i = 0; e->kind == FACE && i < e->properties; i++) {
+			property *p = &e->property[i];
 			if (!p->list)
 				p->kept = mr_build_property(&f->rows.b, p->name, types[p->value].name, 'f');
+		}
 	}
 }
 

@@ -49,7 +49,7 @@ condition(const mr_panels *l)
 static mr_status
 factorize(mr_ctx *ctx, mr_ctx *work, const mr_system *system, const mr_pattern *pattern, mr_elimination *e)
 {
-	double *value = MR_NEW(ctx, e->l.value_at[e->l.count] + MR_PANEL_SLACK, double);
+	double *value = MR_NEW(ctx, e->l.value_at[e->l.count], double);
 	size_t bad = mr_multifrontal(work, system->a, pattern, e, value), row;
 
 	e->l.value = value;
@@ -86,7 +86,7 @@ cholesky_setup(
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
 		.seconds_factor = mr_seconds() - analysed,
 		.rcond = condition(&e.l),
-		.nnz_factor = (double)e.l.value_at[e.l.count] };
+		.nnz_factor = (double)(e.l.value_at[e.l.count] - MR_PANEL_SLACK * e.l.count) };
 	return MR_OK;
 }
 

@@ -247,7 +247,7 @@ lay_out(mr_ctx *ctx, const group *g, size_t panels, const int *parent, mr_elimin
 		row_at[s] = rows;
 		value_at[s] = values;
 		rows += (size_t)own->rows;
-		values += (size_t)own->rows * (size_t)own->columns;
+		values += (size_t)own->rows * (size_t)own->columns + MR_PANEL_SLACK;
 		first_below[s] = (int)s;
 		work[s] = c * r * r - c * c * r + c * c * c / 3;
 		for (int j = 0; j < own->columns; j++)

@@ -17,6 +17,9 @@ typedef struct mr_pattern {
 	int *start, *row, *entry;
 } mr_pattern;
 
+/* Numbers behind each panel, which are read and not used, eight rows at a time. */
+enum { MR_PANEL_SLACK = 8 };
+
 typedef struct mr_elimination {
 	mr_panels l;        /* without values */
 	const double *work; /* multiplications of each panel */

@@ -66,23 +66,25 @@ column_at(size_t m, bool packed, size_t j)
 }
 
 /* Rows from i and columns from j of c less a b', in a tile of which `rows` and `columns` are there: what is
- * read of a and b beyond them is not used. */
+ * read of a beyond them is not used. */
 static MR_INLINED void
 tile(const matrix *c, size_t i, size_t j, const double *a, const double *b, size_t ld, size_t depth,
     size_t rows, size_t columns)
 {
 	mr_wide s[COLUMNS][2] = { { { 0 } } };
+	size_t b1 = columns > 1, b2 = columns > 2 ? 2 : 0,
+	       b3 = columns > 3 ? 3 : 0; /* others' are not touched */
 
 	for (size_t t = 0; t < depth; t++, a += ld, b += ld) {
 		mr_wide a0 = *(const loose *)a, a1 = *(const loose *)(a + 4);
 		s[0][0] += a0 * b[0];
 		s[0][1] += a1 * b[0];
-		s[1][0] += a0 * b[1];
-		s[1][1] += a1 * b[1];
-		s[2][0] += a0 * b[2];
-		s[2][1] += a1 * b[2];
-		s[3][0] += a0 * b[3];
-		s[3][1] += a1 * b[3];
+		s[1][0] += a0 * b[b1];
+		s[1][1] += a1 * b[b1];
+		s[2][0] += a0 * b[b2];
+		s[2][1] += a1 * b[b2];
+		s[3][0] += a0 * b[b3];
+		s[3][1] += a1 * b[b3];
 	}
 	for (size_t k = 0; k < columns; k++) {
 		double *at = c->c + (column_at(c->m, c->packed, j + k) + (ptrdiff_t)i);

@@ -6,12 +6,10 @@
 
 /*
  * Factors the matrix whose pattern and elimination these are.  Workspace: in the arena of `work`.  value:
- * room for e->l.value_at[e->l.count] numbers and MR_PANEL_SLACK more.  Returns n, or the first column whose
+ * room for e->l.value_at[e->l.count] numbers.  Returns n, or the first column whose
  * pivot is not positive.  The same bits for any number of threads.
  */
 size_t mr_multifrontal(
     mr_ctx *work, const mr_sparse *a, const mr_pattern *pattern, const mr_elimination *e, double *value);
-
-enum { MR_PANEL_SLACK = 16 };
 
 #endif
