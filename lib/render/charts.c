@@ -233,7 +233,8 @@ lay_out(sheet *s, packing *k, double *uv)
 		flatten(s, c);
 		area += c->size.x * c->size.y;
 	}
-	qsort(s->chart, s->charts, sizeof *s->chart, by_height);
+	if (s->charts > 0)
+		qsort(s->chart, s->charts, sizeof *s->chart, by_height);
 	low = high = 2 * k->side / sqrt(area);
 	for (int i = 0; !pack_at(s, k, low); high = low, low /= 1.5)
 		if (i++ == 20)
