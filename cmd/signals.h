@@ -1,4 +1,4 @@
-/* signals.h -- what is done when a signal ends the process: unfinished files go, and a cut input is told.
+/* signals.h -- when a signal ends the process, unfinished files are removed and cut input is reported.
  * Layer rule: cmd; includes base only. */
 #ifndef SIGNALS_H
 #define SIGNALS_H

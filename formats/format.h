@@ -31,7 +31,7 @@ mr_status mr_model_parse(mr_ctx *ctx, const char *path, const char *format, cons
 /* Passes the mark that a text in UTF-8 may begin with; a binary STL may begin with anything. */
 void mr_skip_mark(const unsigned char **data, size_t *size);
 
-/* mr_stl_is_binary: whether the size is that of as many triangles as a binary file counts. */
+/* mr_stl_is_binary: whether the file's size fits its count of triangles. */
 mr_sniff mr_obj_sniff, mr_stl_is_binary, mr_stl_sniff, mr_off_sniff, mr_xyz_sniff, mr_ptx_sniff;
 mr_read_model mr_gltf_read, mr_las_read, mr_obj_read, mr_off_read, mr_pcd_read, mr_ply_read, mr_ptx_read,
     mr_stl_read, mr_xyz_read;

@@ -339,7 +339,7 @@ find_displaced(mr_ctx *ctx, const mr_page *page, mr_frame *f, const char *list, 
 	return MR_OK;
 }
 
-/* What is drawn must be a surface or points as any tool takes them: the page checks nothing. */
+/* The page checks nothing: it draws surfaces and points that any tool accepts. */
 static mr_status
 check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const displaced *d)
 {

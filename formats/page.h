@@ -17,7 +17,7 @@ typedef struct mr_page_picture {
 	size_t size;
 } mr_page_picture;
 
-/* What surfaces wear, and the pictures so far; starts zeroed. */
+/* The looks and pictures collected so far; starts zeroed. */
 typedef struct mr_page_pictures {
 	const char *texture;   /* the caller's: a picture for all that have texture coordinates, or NULL */
 	const char *materials; /* the caller's: the folder of the files of materials, or NULL */

@@ -258,7 +258,7 @@ place_on(const finder *f, uint32_t h)
 /* Sums of a fit y = mean + slope x + jump h: of the weights, and of their products with x, h and y. */
 enum { W, WX, WXX, WH, WXH, WY, WXY, WHY, SUMS };
 
-/* Where an edge of the surface crosses a curve. */
+/* A crossing of a surface edge with a crease curve. */
 typedef struct crossing {
 	uint32_t h;
 	double sum[SUMS];

@@ -485,7 +485,7 @@ serve_blocks(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Of each vertex, whether all faces around it are of one block; *between: the faces of several. */
+/* Marks the vertices whose faces lie in one block.  *between: the number of faces that touch others. */
 static const uint8_t *
 find_inner(const simplifier *s, size_t *between)
 {

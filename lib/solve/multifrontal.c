@@ -16,7 +16,7 @@ static const double MANY = 2e6;
 
 enum { ROWS = 8, COLUMNS = 4, DEPTH = 128, BLOCK = 64, CHUNK = 64 };
 
-/* What a thread works with. */
+/* The workspace of a thread. */
 typedef struct desk {
 	atomic_flag taken;
 	int *place; /* of each row in the panel's */
@@ -58,7 +58,7 @@ typedef struct matrix {
 	bool packed;
 } matrix;
 
-/* Where row 0 of a column is, or would be. */
+/* The offset of row 0 of a column, which a packed matrix may not store. */
 static MR_INLINED ptrdiff_t
 column_at(size_t m, bool packed, size_t j)
 {
@@ -306,7 +306,7 @@ eliminate(multifrontal *w, size_t s, double *u, const desk *d)
 	return false;
 }
 
-/* Panels in postorder, their updates on a stack; those of subtrees' roots lie elsewhere. */
+/* Eliminates a panel, with its update on the stack; a subtree's root has memory of its own. */
 static size_t
 eliminate_on_stack(multifrontal *w, size_t s, size_t used, const desk *d)
 {

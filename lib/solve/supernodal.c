@@ -289,7 +289,7 @@ backward_subtrees(void *arg, size_t begin, size_t end)
 			backward_panel(s, (size_t)p, s->panel + i * s->most);
 }
 
-/* What the subtrees give to the rows outside of them, in their order. */
+/* Adds the contributions of the subtrees to the rows above them, in a fixed order. */
 static void
 receive(const mr_supernodal *s)
 {
