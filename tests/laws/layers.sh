@@ -75,6 +75,7 @@ foreign() {
 	[ "$places" -le "$3" ] || { echo "$1 is included in $places places, not $3"; fail=1; }
 }
 foreign 'cholmod.*' 'lib/solve/[a-z_]+\.[ch]' 1
+foreign 'camd.*' 'lib/solve/[a-z_]+\.[ch]' 1
 foreign 'umfpack.*' 'lib/solve/[a-z_]+\.[ch]' 1
 foreign 'flann/.*' 'lib/space/near_shim\.cc' 2
 foreign 'zlib\.h' 'lib/stream/[a-z0-9_]+\.[ch]|formats/[a-z_]+\.[ch]' 4
