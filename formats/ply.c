@@ -194,11 +194,12 @@ choose_vertex_properties(ply *f, const element *e)
 static void
 choose_properties(ply *f)
 {
-	for (element *e = f->element; e < f->element + f->elements; e++) {
+	for (size_t i = 0; i < f->elements; i++) {
+		element *e = &f->element[i];
 		if (e->kind == VERTEX)
 			choose_vertex_properties(f, e);
-		for (size_t i = 0; e->kind == FACE && i < e->properties; i++) {
-			property *p = &e->property[i];
+		for (size_t j = 0; e->kind == FACE && j < e->properties; j++) {
+			property *p = &e->property[j];
 			if (!p->list)
 				p->kept = mr_build_property(&f->rows.b, p->name, types[p->value].name, 'f');
 		}
