@@ -69,18 +69,32 @@ mark_face(mr_builder *b, size_t corners)
 }
 
 void
+mr_build_faces(mr_builder *b, const uint32_t *size, size_t n, const uint32_t *corner, const uint32_t *uv,
+    const uint32_t *vn)
+{
+	size_t corners = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		corners += size[i];
+		b->m.counts.polygons += size[i] > 3;
+	}
+	if (n == 0)
+		return;
+	MR_RESERVE(b->ctx, b->corner, b->corners, corners, &b->corner_room);
+	memcpy(b->corner + b->corners, corner, corners * sizeof *corner);
+	keep_places(b, &b->corner_uv, &b->uv_room, uv, corners);
+	keep_places(b, &b->corner_vn, &b->vn_room, vn, corners);
+	for (size_t i = 0; i < n; i++)
+		mark_face(b, size[i]);
+}
+
+void
 mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n)
 {
-	if (n < 3) {
+	if (n < 3)
 		b->skipped++;
-		return;
-	}
-	MR_RESERVE(b->ctx, b->corner, b->corners, n, &b->corner_room);
-	memcpy(b->corner + b->corners, corner, n * sizeof *corner);
-	keep_places(b, &b->corner_uv, &b->uv_room, uv, n);
-	keep_places(b, &b->corner_vn, &b->vn_room, vn, n);
-	b->m.counts.polygons += n > 3;
-	mark_face(b, n);
+	else
+		mr_build_faces(b, &(uint32_t){ (uint32_t)n }, 1, corner, uv, vn);
 }
 
 /* ---- names ---- */

@@ -45,6 +45,10 @@ mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;
  * the corners' values in the builder's arrays, MR_NONE of one without; NULL where none has any. */
 void mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n);
 
+/* The same of n faces of three corners and more, one after another: how many each has in `size`. */
+void mr_build_faces(mr_builder *b, const uint32_t *size, size_t n, const uint32_t *corner, const uint32_t *uv,
+    const uint32_t *vn);
+
 /* The faces to come are marked with this name, cleaned and without blanks around it; `own`: it is another
  * than one of that name before. */
 void mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, bool own);

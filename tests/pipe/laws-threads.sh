@@ -24,6 +24,8 @@ try() { # result or -, command
 try - mr-make bumpy -n 6000 --noise 0.001
 try off mr-export -f off -i mesh.mrs -
 try - mr-import -f off off
+try obj mr-export -f obj -i mesh.mrs -
+try - mr-import -f obj obj
 try smooth.mrs mr-smooth mesh.mrs
 try - mr-smooth -m taubin mesh.mrs
 try base.mrs mr-remesh smooth.mrs

@@ -158,7 +158,8 @@ parse(mr_ctx *ctx, const char *path, const char *text, mr_model *m)
 	return mr_model_parse(ctx, path, NULL, (const unsigned char *)text, strlen(text), m);
 }
 
-/* A random OBJ: polygons of some corners, seams, creases, corners without, and marks that change. */
+/* A random OBJ: polygons of some corners, seams, creases, corners without, relative indices, and marks that
+ * change. */
 static char *
 random_obj(mr_ctx *ctx, uint64_t number)
 {
@@ -178,6 +179,7 @@ random_obj(mr_ctx *ctx, uint64_t number)
 	for (int f = 0; f < 40; f++) {
 		int corners = 3 + (int)(mr_random_bits(&r) % 5), first = (int)(mr_random_bits(&r) % CORNERS);
 		bool uv = mr_random_bits(&r) % 8, vn = mr_random_bits(&r) % 8;
+		int last = f % 4 == 1 ? CORNERS + 1 : 0;
 		if (mr_random_bits(&r) % 3 == 0)
 			SAY("%s %s%d\n", (const char *[]){ "o", "g", "usemtl" }[f % 3], f % 2 ? "a b" : "c",
 			    f % 5);
@@ -189,7 +191,7 @@ random_obj(mr_ctx *ctx, uint64_t number)
 			SAY(uv   ? vn ? " %d/%d/%d" : " %d/%d"
 			    : vn ? " %d//%d"
 				 : " %d",
-			    v, uv ? t : v, v / 4 + 1);
+			    v - last, (uv ? t : v / 4 + 1) - last, v / 4 + 1 - last);
 		}
 		SAY("\n");
 	}
@@ -213,6 +215,52 @@ whole_models(void **state)
 		ok(&ctx, mr_model_write(&ctx, "whole.obj", NULL, &m, NULL));
 		ok(&ctx, mr_model_read(&ctx, "whole.obj", NULL, &back));
 		same_model(&m, &back);
+		mr_ctx_free(&ctx);
+	}
+}
+
+/* The text with a comment behind each line, so that it is several blocks to the reader. */
+static char *
+stretched(mr_ctx *ctx, const char *text)
+{
+	enum { MORE = 1000 };
+	size_t lines = 0;
+	char *to, *all;
+
+	for (const char *p = text; *p; p++)
+		lines += *p == '\n';
+	to = all = MR_NEW(ctx, strlen(text) + MORE * lines + 1, char);
+	for (; *text; text++) {
+		*to++ = *text;
+		if (*text != '\n')
+			continue;
+		memset(to, '#', MORE);
+		to += MORE;
+		to[-1] = '\n';
+	}
+	*to = 0;
+	return all;
+}
+
+/* Blocks of an OBJ, read by several threads, are one model; what is wrong in the last has its line. */
+static void
+blocks(void **state)
+{
+	(void)state;
+	for (uint64_t number = 1; number < 10; number++) {
+		mr_ctx ctx;
+		mr_model one, several;
+		char *text;
+		mr_ctx_init(&ctx, 4);
+		text = random_obj(&ctx, number);
+		ok(&ctx, parse(&ctx, "", text, &one));
+		text = stretched(&ctx, text);
+		assert_true(strlen(text) > 1 << 17);
+		ok(&ctx, parse(&ctx, "", text, &several));
+		same_model(&one, &several);
+		text = stretched(&ctx, mr_format(&ctx, "%sf 1 2 -31\nf 1 2 x\n", random_obj(&ctx, number)));
+		assert_int_equal(parse(&ctx, "", text, &several), MR_EFORMAT);
+		assert_non_null(strstr(ctx.error, ": vertex -31 of 30"));
 		mr_ctx_free(&ctx);
 	}
 }
@@ -577,10 +625,10 @@ int
 main(void)
 {
 	const struct CMUnitTest tests[] = { cmocka_unit_test(round_trips), cmocka_unit_test(whole_models),
-		cmocka_unit_test(properties), cmocka_unit_test(stl_round_trip), cmocka_unit_test(recognised),
-		cmocka_unit_test(refusals), cmocka_unit_test(details), cmocka_unit_test(polygons),
-		cmocka_unit_test(what_was_lost), cmocka_unit_test(what_was_rounded), cmocka_unit_test(names),
-		cmocka_unit_test(whole_or_not) };
+		cmocka_unit_test(blocks), cmocka_unit_test(properties), cmocka_unit_test(stl_round_trip),
+		cmocka_unit_test(recognised), cmocka_unit_test(refusals), cmocka_unit_test(details),
+		cmocka_unit_test(polygons), cmocka_unit_test(what_was_lost),
+		cmocka_unit_test(what_was_rounded), cmocka_unit_test(names), cmocka_unit_test(whole_or_not) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);
