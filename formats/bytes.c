@@ -2,6 +2,7 @@
 #include "formats/bytes.h"
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "base/retry.h"
 
 #include <errno.h>
@@ -193,6 +194,10 @@ deflate_all(mr_sink *s, void *data, size_t bytes, int flush)
 void
 mr_sink_flush(mr_sink *s)
 {
+	if (s->memory) {
+		MR_RESERVE(s->ctx, s->buffer, s->used, MR_SINK_BUFFER, &s->room);
+		return;
+	}
 	if (s->gz)
 		deflate_all(s, s->buffer, s->used, Z_NO_FLUSH);
 	else
@@ -229,6 +234,77 @@ mr_print(mr_sink *s, const char *format, ...)
 		mr_sink_fill(s, to + (n < MR_SINK_ROOM ? n : MR_SINK_ROOM - 1));
 }
 
+/* ---- rows, by all threads ---- */
+
+enum { ROWS = 1024, PIECES = 64 };
+
+/* Rows in memory. */
+typedef struct piece {
+	mr_ctx ctx; /* its own: others are made at the same time */
+	mr_sink sink;
+	mr_status status;
+} piece;
+
+typedef struct pieces {
+	mr_row *row;
+	const void *arg;
+	size_t first; /* row */
+	piece of[PIECES];
+} pieces;
+
+static mr_status
+put_rows(const pieces *p, piece *to, size_t begin, size_t end)
+{
+	MR_ENTER(&to->ctx);
+	for (size_t i = begin; i < end; i++)
+		p->row(&to->sink, p->arg, p->first + i);
+	return MR_OK;
+}
+
+static void
+put_piece(void *arg, size_t begin, size_t end)
+{
+	pieces *p = arg;
+	piece *to = &p->of[begin / ROWS];
+
+	to->status = put_rows(p, to, begin, end);
+}
+
+static void
+write_piece(mr_sink *s, piece *p)
+{
+	s->status = mr_fail_as(s->ctx, &p->ctx, p->status);
+	if (s->status < 0)
+		return;
+	if (s->gz)
+		mr_put(s, p->sink.buffer, p->sink.used);
+	else
+		write_all(s, p->sink.buffer, p->sink.used);
+	p->sink.used = 0;
+}
+
+void
+mr_put_each(mr_sink *s, size_t n, mr_row *row, const void *arg)
+{
+	const size_t most = (size_t)ROWS * PIECES;
+	MR_SCOPE(s->ctx);
+	pieces *p = MR_NEW_ZERO(s->ctx, 1, pieces);
+
+	p->row = row;
+	p->arg = arg;
+	for (int i = 0; i < PIECES; i++)
+		p->of[i].sink = (mr_sink){ .ctx = mr_keep(s->ctx, &p->of[i].ctx), .memory = true };
+	mr_sink_flush(s);
+	for (; p->first < n && s->status == MR_OK; p->first += most) {
+		size_t count = n - p->first < most ? n - p->first : most;
+		mr_parallel(s->ctx, count, ROWS, put_piece, p);
+		for (size_t i = 0; i * ROWS < count && s->status == MR_OK; i++)
+			write_piece(s, &p->of[i]);
+	}
+	for (int i = 0; i < PIECES; i++)
+		mr_ctx_free(&p->of[i].ctx);
+}
+
 static mr_status
 open_target(mr_sink *s)
 {
@@ -257,7 +333,7 @@ start_gzip(mr_sink *s)
 mr_status
 mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
 {
-	mr_sink new = { .ctx = ctx, .path = path };
+	mr_sink new = { .ctx = ctx, .path = path, .room = MR_SINK_BUFFER };
 
 	new.buffer = mr_alloc(ctx, MR_SINK_BUFFER, 1);
 	MR_TRY(open_target(&new));

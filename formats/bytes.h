@@ -30,10 +30,11 @@ typedef struct mr_sink {
 	mr_ctx *ctx;
 	const char *path; /* as named by the user */
 	mr_outfile file;
-	bool hold; /* set by the caller: the file stays open, for the caller to keep or to drop */
-	void *gz;  /* the compressor, or NULL */
+	bool hold;   /* set by the caller: the file stays open, for the caller to keep or to drop */
+	void *gz;    /* the compressor, or NULL */
+	bool memory; /* the buffer grows, and nothing is written */
 	char *buffer;
-	size_t used;
+	size_t used, room;
 	mr_status status;
 } mr_sink;
 
@@ -52,11 +53,16 @@ void mr_put(mr_sink *s, const void *data, size_t bytes);
 /* Formatted text of less than MR_SINK_ROOM bytes. */
 void mr_print(mr_sink *s, const char *format, ...) MR_PRINTF(2, 3);
 
+/* Puts n rows, which all threads make at the same time: `row` puts one, and changes nothing but the sink that
+ * it is given. */
+typedef void mr_row(mr_sink *s, const void *arg, size_t i);
+void mr_put_each(mr_sink *s, size_t n, mr_row *row, const void *arg);
+
 /* A place for up to MR_SINK_ROOM bytes; mr_sink_fill tells where they ended. */
 static inline char *
 mr_sink_room(mr_sink *s)
 {
-	if (s->used > MR_SINK_BUFFER - MR_SINK_ROOM)
+	if (s->room - s->used < MR_SINK_ROOM)
 		mr_sink_flush(s);
 	return s->buffer + s->used;
 }

@@ -8,13 +8,14 @@ typedef struct values {
 	char letter; /* t or n */
 	size_t width;
 	const double *vertex, *corner;
-	uint32_t *place; /* of the corners' values: line from 0, MR_NONE of one without; NULL where they are
-	                    of vertices */
+	uint32_t *place, *first; /* of the corners' values: line from 0, MR_NONE of one without; of each line
+	                            its corner; NULL where they are of vertices */
 } values;
 
 static void
-put_vertex(mr_sink *s, const mr_model *m, size_t i)
+put_vertex(mr_sink *s, const void *arg, size_t i)
 {
+	const mr_model *m = arg;
 	double x[6] = { m->p[i].x, m->p[i].y, m->p[i].z };
 
 	mr_put(s, "v ", 2);
@@ -25,8 +26,10 @@ put_vertex(mr_sink *s, const mr_model *m, size_t i)
 }
 
 static void
-put_value(mr_sink *s, const values *x, const double *value)
+put_value(mr_sink *s, const void *arg, size_t i)
 {
+	const values *x = arg;
+	const double *value = x->vertex ? x->vertex + x->width * i : x->corner + x->width * x->first[i];
 	char word[3] = { 'v', x->letter, ' ' };
 
 	mr_put(s, word, sizeof word);
@@ -37,18 +40,14 @@ put_value(mr_sink *s, const values *x, const double *value)
 static void
 put_values(mr_sink *s, const mr_model *m, values *x)
 {
-	size_t corners = 3 * m->nf, lines;
-	uint32_t *first;
+	size_t corners = 3 * m->nf, lines = x->vertex ? m->nv : 0;
 
-	for (size_t i = 0; x->vertex && i < m->nv; i++)
-		put_value(s, x, x->vertex + x->width * i);
-	if (x->vertex || !x->corner)
-		return;
-	first = MR_NEW(s->ctx, corners, uint32_t);
-	x->place = MR_NEW(s->ctx, corners, uint32_t);
-	mr_number_rows(s->ctx, x->corner, x->width, corners, x->place, first, &lines);
-	for (size_t i = 0; i < lines; i++)
-		put_value(s, x, x->corner + x->width * first[i]);
+	if (!x->vertex && x->corner) {
+		x->first = MR_NEW(s->ctx, corners, uint32_t);
+		x->place = MR_NEW(s->ctx, corners, uint32_t);
+		mr_number_rows(s->ctx, x->corner, x->width, corners, x->place, x->first, &lines);
+	}
+	mr_put_each(s, lines, put_value, x);
 }
 
 /* The line of a corner's value; 0 where it has none. */
@@ -87,53 +86,90 @@ typedef struct marks {
 	const uint32_t *of;
 	const char **start;
 	size_t names;
-	bool said;
-	uint32_t last; /* that was said */
+	size_t first; /* polygon that has a name */
 } marks;
 
-static void
-put_mark(mr_sink *s, marks *k, size_t f)
-{
-	uint32_t i = k->of[f];
-	size_t n = i < k->names ? (size_t)(k->start[i + 1] - k->start[i]) - 1 : 0;
+typedef struct faces {
+	const mr_model *m;
+	const values *x;
+	mr_polygons polygon;
+	marks mark[4];
+} faces;
 
-	if (k->said ? i == k->last : i < k->names && n == 0)
-		return; /* the same, or none so far */
-	k->said = true;
-	k->last = i;
-	if (i >= k->names)
-		mr_print(s, "%s %s%u\n", k->word, k->what, (unsigned)i);
+/* The face that a polygon begins with. */
+static size_t
+face_of(const faces *w, size_t i)
+{
+	return mr_polygon_corner(&w->polygon, mr_polygon_begin(&w->polygon, i)) / 3;
+}
+
+static size_t
+name_bytes(const marks *k, uint32_t mark)
+{
+	return mark < k->names ? (size_t)(k->start[mark + 1] - k->start[mark]) - 1 : 0;
+}
+
+/* Where it changes, from the first name on. */
+static void
+put_mark(mr_sink *s, const faces *w, const marks *k, size_t i)
+{
+	uint32_t mark = k->of[face_of(w, i)];
+	size_t n;
+
+	if (i < k->first || (i > k->first && mark == k->of[face_of(w, i - 1)]))
+		return;
+	n = name_bytes(k, mark);
+	if (mark >= k->names)
+		mr_print(s, "%s %s%u\n", k->word, k->what, (unsigned)mark);
 	else {
 		mr_print(s, n ? "%s " : "%s", k->word);
-		mr_put(s, k->start[i], n);
+		mr_put(s, k->start[mark], n);
 		mr_put(s, "\n", 1);
 	}
 }
 
 static void
+put_face(mr_sink *s, const void *arg, size_t i)
+{
+	const faces *w = arg;
+
+	for (const marks *k = w->mark; k < w->mark + 4; k++)
+		if (k->of)
+			put_mark(s, w, k, i);
+	mr_put(s, "f", 1);
+	for (size_t c = mr_polygon_begin(&w->polygon, i); c < mr_polygon_begin(&w->polygon, i + 1); c++)
+		put_corner(s, w->m, w->x, mr_polygon_corner(&w->polygon, c));
+	mr_put(s, "\n", 1);
+}
+
+static void
+find_names(mr_ctx *ctx, const faces *w, marks *k, mr_lines names)
+{
+	uint32_t mark;
+
+	if (!k->of)
+		return;
+	mr_line_starts(ctx, names.text, names.bytes, &k->start, &k->names);
+	while (k->first < w->polygon.count && (mark = k->of[face_of(w, k->first)]) < k->names &&
+	       name_bytes(k, mark) == 0)
+		k->first++;
+}
+
+static void
 put_faces(mr_sink *s, const mr_model *m, const values x[2])
 {
-	marks all[] = { { .word = "o", .what = "object", .of = m->object },
-		{ .word = "g", .what = "group", .of = m->group },
-		{ .word = "usemtl", .what = "material", .of = m->material },
-		{ .word = "s", .what = "", .of = m->smoothing } };
+	faces w = { .m = m,
+		.x = x,
+		.mark = { { .word = "o", .what = "object", .of = m->object },
+		    { .word = "g", .what = "group", .of = m->group },
+		    { .word = "usemtl", .what = "material", .of = m->material },
+		    { .word = "s", .what = "", .of = m->smoothing } } };
 	const mr_lines names[] = { m->objects, m->groups, m->materials, { "off", 3 } };
-	mr_polygons faces;
 
+	mr_faces_of(s, m, &w.polygon);
 	for (size_t k = 0; k < 4; k++)
-		if (all[k].of)
-			mr_line_starts(s->ctx, names[k].text, names[k].bytes, &all[k].start, &all[k].names);
-	mr_faces_of(s, m, &faces);
-	for (size_t i = 0; i < faces.count; i++) {
-		size_t f = mr_polygon_corner(&faces, mr_polygon_begin(&faces, i)) / 3;
-		for (size_t k = 0; k < 4; k++)
-			if (all[k].of)
-				put_mark(s, &all[k], f);
-		mr_put(s, "f", 1);
-		for (size_t c = mr_polygon_begin(&faces, i); c < mr_polygon_begin(&faces, i + 1); c++)
-			put_corner(s, m, x, mr_polygon_corner(&faces, c));
-		mr_put(s, "\n", 1);
-	}
+		find_names(s->ctx, &w, &w.mark[k], names[k]);
+	mr_put_each(s, w.polygon.count, put_face, &w);
 }
 
 static void
@@ -151,14 +187,13 @@ put_libraries(mr_sink *s, mr_lines files)
 mr_status
 mr_obj_write(mr_sink *s, const mr_model *m)
 {
-	values x[2] = { { 't', 2, m->texcoord, m->corner_texcoord, NULL },
-		{ 'n', 3, (const double *)m->normal, (const double *)m->corner_normal, NULL } };
+	values x[2] = { { 't', 2, m->texcoord, m->corner_texcoord, NULL, NULL },
+		{ 'n', 3, (const double *)m->normal, (const double *)m->corner_normal, NULL, NULL } };
 
 	mr_note_lost(s, m,
 	    "normal corner_normal color texcoord corner_texcoord group object material smoothing faces");
 	put_libraries(s, m->mtllib);
-	for (size_t i = 0; i < m->nv; i++)
-		put_vertex(s, m, i);
+	mr_put_each(s, m->nv, put_vertex, m);
 	put_values(s, m, &x[0]);
 	put_values(s, m, &x[1]);
 	mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib);

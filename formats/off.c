@@ -247,28 +247,38 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 /* ---- written ---- */
 
+typedef struct written {
+	const mr_tri *t;
+	mr_polygons faces;
+} written;
+
+static void
+put_face(mr_sink *s, const void *arg, size_t f)
+{
+	const written *w = arg;
+	size_t first = mr_polygon_begin(&w->faces, f), end = mr_polygon_begin(&w->faces, f + 1);
+
+	mr_sink_fill(s, mr_count_write(mr_sink_room(s), end - first));
+	for (size_t i = first; i < end; i++) {
+		uint32_t corner = mr_polygon_corner(&w->faces, i);
+		mr_put(s, " ", 1);
+		mr_sink_fill(s, mr_count_write(mr_sink_room(s), w->t[corner / 3].v[corner % 3]));
+	}
+	mr_put(s, "\n", 1);
+}
+
 mr_status
 mr_off_write(mr_sink *s, const mr_model *m)
 {
+	written w = { .t = m->t };
 	mr_part part[MR_PARTS];
-	mr_polygons faces;
 
 	mr_note_lost(s, m, "normal color alpha texcoord faces");
-	mr_faces_of(s, m, &faces);
+	mr_faces_of(s, m, &w.faces);
 	mr_print(s, "%s%s%sOFF\n", m->texcoord ? "ST" : "", m->color ? "C" : "", m->normal ? "N" : "");
-	mr_print(s, "%zu %zu 0\n", m->nv, faces.count);
+	mr_print(s, "%zu %zu 0\n", m->nv, w.faces.count);
 	mr_vertex_parts(m, part);
 	mr_put_rows(s, part, 4, m->nv, true);
-	for (size_t f = 0; f < faces.count; f++) {
-		mr_sink_fill(s, mr_count_write(mr_sink_room(s),
-				    mr_polygon_begin(&faces, f + 1) - mr_polygon_begin(&faces, f)));
-		for (size_t i = mr_polygon_begin(&faces, f); i < mr_polygon_begin(&faces, f + 1); i++) {
-			char *to = mr_sink_room(s);
-			*to++ = ' ';
-			uint32_t corner = mr_polygon_corner(&faces, i);
-			mr_sink_fill(s, mr_count_write(to, m->t[corner / 3].v[corner % 3]));
-		}
-		mr_put(s, "\n", 1);
-	}
+	mr_put_each(s, w.faces.count, put_face, &w);
 	return MR_OK;
 }

@@ -48,32 +48,33 @@ put_header(const output *w)
 /* ---- rows ---- */
 
 static void
-put_length(const output *w, size_t n)
+put_length(mr_sink *s, const output *w, size_t n)
 {
 	const uint32_t whole = (uint32_t)n;
 	const unsigned char byte = (unsigned char)n;
 	const mr_part length = { w->bytes ? (const void *)&byte : &whole, w->bytes ? 'b' : 'u', 1, 1, "" };
 
-	mr_put_parts(w->s, &length, 1, 0, w->text);
+	mr_put_parts(s, &length, 1, 0, w->text);
 }
 
 static void
-put_face(const output *w, size_t face)
+put_face(mr_sink *s, const void *arg, size_t face)
 {
+	const output *w = arg;
 	size_t first = mr_polygon_begin(&w->faces, face), end = mr_polygon_begin(&w->faces, face + 1);
 	const mr_part corner = { w->m->t, 'u', 1, 1, "" }, uv = { w->m->corner_texcoord, 'd', 2, 2, "" };
 
-	put_length(w, end - first);
+	put_length(s, w, end - first);
 	for (size_t i = first; i < end; i++)
-		mr_put_parts(w->s, &corner, 1, mr_polygon_corner(&w->faces, i), w->text);
+		mr_put_parts(s, &corner, 1, mr_polygon_corner(&w->faces, i), w->text);
 	if (uv.data)
-		put_length(w, 2 * (end - first));
+		put_length(s, w, 2 * (end - first));
 	for (size_t i = first; i < end; i++)
-		mr_put_parts(w->s, &uv, 1, mr_polygon_corner(&w->faces, i), w->text);
+		mr_put_parts(s, &uv, 1, mr_polygon_corner(&w->faces, i), w->text);
 	mr_put_parts(
-	    w->s, w->part + w->vertex_parts, w->face_parts, mr_polygon_corner(&w->faces, first) / 3, w->text);
+	    s, w->part + w->vertex_parts, w->face_parts, mr_polygon_corner(&w->faces, first) / 3, w->text);
 	if (w->text)
-		mr_end_row(w->s);
+		mr_end_row(s);
 }
 
 static void
@@ -93,8 +94,7 @@ put(mr_sink *s, const mr_model *m, bool text)
 	w.bytes = w.faces.most * 2 <= UINT8_MAX;
 	put_header(&w);
 	mr_put_rows(s, w.part, w.vertex_parts, m->nv, text);
-	for (size_t i = 0; i < w.faces.count; i++)
-		put_face(&w, i);
+	mr_put_each(s, w.faces.count, put_face, &w);
 }
 
 mr_status

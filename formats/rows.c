@@ -269,12 +269,24 @@ mr_end_row(mr_sink *s)
 	s->buffer[s->used - 1] = '\n';
 }
 
+typedef struct table {
+	const mr_part *part;
+	size_t parts;
+	bool text;
+} table;
+
+static void
+put_row(mr_sink *s, const void *arg, size_t i)
+{
+	const table *t = arg;
+
+	mr_put_parts(s, t->part, t->parts, i, t->text);
+	if (t->text)
+		mr_end_row(s);
+}
+
 void
 mr_put_rows(mr_sink *s, const mr_part *part, size_t parts, size_t n, bool text)
 {
-	for (size_t i = 0; i < n; i++) {
-		mr_put_parts(s, part, parts, i, text);
-		if (text)
-			mr_end_row(s);
-	}
+	mr_put_each(s, n, put_row, &(table){ part, parts, text });
 }

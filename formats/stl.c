@@ -221,6 +221,13 @@ mr_stl_write(mr_sink *s, const mr_model *m)
 	return MR_OK;
 }
 
+/* A model as solids: faces that follow each other in a group are one of its name, of those that there are. */
+typedef struct solids {
+	const mr_model *m;
+	const char **start;
+	size_t names;
+} solids;
+
 static void
 put_facet(mr_sink *s, const mr_model *m, size_t f)
 {
@@ -236,37 +243,42 @@ put_facet(mr_sink *s, const mr_model *m, size_t f)
 	mr_print(s, "endloop\nendfacet\n");
 }
 
-/* "solid" or "endsolid" with the name of the face's group, of those that there are. */
+/* "solid" or "endsolid" with the name of the face's group. */
 static void
-put_solid(mr_sink *s, const char *what, const mr_model *m, size_t f, const char *const *start, size_t names)
+put_solid(mr_sink *s, const char *what, const solids *w, size_t f)
 {
-	uint32_t group = m->group ? m->group[f] : 0;
+	uint32_t group = w->m->group ? w->m->group[f] : 0;
 
 	mr_put(s, what, strlen(what));
-	if (m->group && group < names) {
+	if (w->m->group && group < w->names) {
 		mr_put(s, " ", 1);
-		mr_put(s, start[group], (size_t)(start[group + 1] - start[group] - 1));
-	} else if (m->group)
+		mr_put(s, w->start[group], (size_t)(w->start[group + 1] - w->start[group] - 1));
+	} else if (w->m->group)
 		mr_print(s, " group%u", (unsigned)group);
 	mr_put(s, "\n", 1);
 }
 
-/* Faces that follow each other in a group are a solid of its name. */
+static void
+put_face(mr_sink *s, const void *arg, size_t f)
+{
+	const solids *w = arg;
+	const uint32_t *group = w->m->group;
+
+	if (f == 0 || (group && group[f] != group[f - 1]))
+		put_solid(s, "solid", w, f);
+	put_facet(s, w->m, f);
+	if (f + 1 == w->m->nf || (group && group[f] != group[f + 1]))
+		put_solid(s, "endsolid", w, f);
+}
+
 mr_status
 mr_stl_write_ascii(mr_sink *s, const mr_model *m)
 {
-	const char **start = NULL;
-	size_t names = 0;
+	solids w = { .m = m };
 
 	MR_TRY(need_faces(s, m, "faces group"));
 	if (m->group)
-		mr_line_starts(s->ctx, m->groups.text, m->groups.bytes, &start, &names);
-	for (size_t f = 0; f < m->nf; f++) {
-		if (f == 0 || (m->group && m->group[f] != m->group[f - 1]))
-			put_solid(s, "solid", m, f, start, names);
-		put_facet(s, m, f);
-		if (f + 1 == m->nf || (m->group && m->group[f] != m->group[f + 1]))
-			put_solid(s, "endsolid", m, f, start, names);
-	}
+		mr_line_starts(s->ctx, m->groups.text, m->groups.bytes, &w.start, &w.names);
+	mr_put_each(s, m->nf, put_face, &w);
 	return MR_OK;
 }
