@@ -134,9 +134,11 @@ $(BUILD)/bench/%: tests/bench/%.cc $(BUILD)/flags | setup
 $(BUILD)/libmr.a: $(OBJECTS)
 	$(call say,archive)rm -f $@ && $(AR) qcsD $@ $^
 
+# Threads sleep in it.
 $(BUILD)/$(SONAME): $(OBJECTS)
 	$(call say,link   )echo '{ global: mr_*; local: *; };' >$@.map && \
-		$(CC) -shared $(ALL_C) $(SAFE) $(LDFLAGS) -Wl,-soname,$(@F) -Wl,--version-script=$@.map -o $@ $^ $(LIBS)
+		$(CC) -shared $(ALL_C) $(SAFE) $(LDFLAGS) -Wl,-soname,$(@F) -Wl,-z,nodelete \
+		-Wl,--version-script=$@.map -o $@ $^ $(LIBS)
 
 $(BUILD)/%.c.o: %.c $(BUILD)/flags | setup
 	@mkdir -p $(@D)

@@ -1,47 +1,155 @@
-/* Pieces of fixed size, which threads take as they come: who takes which changes no result. */
+/* Pieces of fixed size, which threads take as they come: who takes which changes no result.  Helpers are
+ * started once, and sleep between loops. */
 #include "base/parallel.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
 
-typedef struct job {
+typedef struct job job;
+struct job {
 	size_t count, grain;
 	atomic_size_t next; /* the first index that no thread has taken */
 	mr_body body;
 	void *arg;
-} job;
+	size_t wanted, busy; /* helpers to come; at work */
+	job *below;          /* that wants helpers, too */
+};
 
-static void *
-work(void *p)
+/* Of the process. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t wanted = PTHREAD_COND_INITIALIZER, done = PTHREAD_COND_INITIALIZER;
+static job *jobs;   /* that want helpers */
+static size_t idle; /* helpers that no job wants */
+static bool forks;  /* are heard of */
+
+static void
+work(job *j)
 {
-	job *j = p;
 	size_t begin;
 
 	while ((begin = atomic_fetch_add(&j->next, j->grain)) < j->count)
 		j->body(j->arg, begin, j->count - begin < j->grain ? j->count : begin + j->grain);
-	return NULL;
+}
+
+/* From now on the job wants nobody. */
+static void
+leave(job *j)
+{
+	job **p = &jobs;
+
+	while (*p && *p != j)
+		p = &(*p)->below;
+	if (*p)
+		*p = j->below;
+	idle += j->wanted;
+	j->wanted = 0;
+}
+
+static void *
+help(void *nothing)
+{
+	pthread_mutex_lock(&lock);
+	for (;;) {
+		job *j = jobs;
+		if (!j) {
+			pthread_cond_wait(&wanted, &lock);
+			continue;
+		}
+		j->busy++;
+		if (--j->wanted == 0)
+			leave(j);
+		pthread_mutex_unlock(&lock);
+		work(j);
+		pthread_mutex_lock(&lock);
+		idle++;
+		if (--j->busy == 0)
+			pthread_cond_broadcast(&done);
+	}
+	return nothing;
+}
+
+static void
+before_fork(void)
+{
+	pthread_mutex_lock(&lock);
+}
+
+static void
+after_fork(void)
+{
+	pthread_mutex_unlock(&lock);
+}
+
+/* A new process has none of the helpers. */
+static void
+in_new_process(void)
+{
+	pthread_mutex_init(&lock, NULL);
+	pthread_cond_init(&wanted, NULL);
+	pthread_cond_init(&done, NULL);
+	jobs = NULL;
+	idle = 0;
+}
+
+/* Starts a helper; one that cannot be had is not missed: the others take its pieces. */
+static bool
+start_helper(void)
+{
+	pthread_t thread;
+
+	if (!forks)
+		forks = pthread_atfork(before_fork, after_fork, in_new_process) == 0;
+	if (!forks || pthread_create(&thread, NULL, help, NULL))
+		return false;
+	pthread_detach(thread);
+	idle++;
+	return true;
+}
+
+/* Calls as many helpers as the job wants. */
+static void
+call_helpers(job *j)
+{
+	pthread_mutex_lock(&lock);
+	while (idle < j->wanted && start_helper())
+		;
+	if (j->wanted > idle)
+		j->wanted = idle;
+	idle -= j->wanted;
+	if (j->wanted) {
+		j->below = jobs;
+		jobs = j;
+	}
+	for (size_t i = 0; i < j->wanted; i++)
+		pthread_cond_signal(&wanted);
+	pthread_mutex_unlock(&lock);
+}
+
+static void
+wait_for_helpers(job *j)
+{
+	pthread_mutex_lock(&lock);
+	leave(j);
+	while (j->busy)
+		pthread_cond_wait(&done, &lock);
+	pthread_mutex_unlock(&lock);
 }
 
 void
 mr_parallel(const mr_ctx *ctx, size_t count, size_t grain, mr_body body, void *arg)
 {
-	enum { MOST = 256 };
 	job j = { .count = count, .grain = grain, .body = body, .arg = arg };
 	size_t pieces = (count + grain - 1) / grain, helpers = ctx->threads - 1;
-	pthread_t thread[MOST];
-	size_t started = 0;
 
 	if (pieces == 0)
 		return;
-	if (helpers > pieces - 1)
-		helpers = pieces - 1;
-	if (helpers > MOST)
-		helpers = MOST;
-	while (started < helpers && !pthread_create(&thread[started], NULL, work, &j))
-		started++; /* a thread that cannot be had is not missed: the others take its pieces */
-	work(&j);
-	while (started)
-		pthread_join(thread[--started], NULL);
+	j.wanted = helpers < pieces - 1 ? helpers : pieces - 1;
+	if (j.wanted) {
+		call_helpers(&j);
+		work(&j);
+		wait_for_helpers(&j);
+	} else
+		work(&j);
 }
 
 enum { SUM_GRAIN = 4096 };

@@ -9,7 +9,7 @@
 typedef void (*mr_body)(void *arg, size_t begin, size_t end);
 
 /* Runs `body` over [0, count) on the context's threads, in pieces that begin at multiples of `grain`.  Which
- * thread takes which is not fixed.  Small loops run in the caller. */
+ * thread takes which is not fixed.  Small loops run in the caller.  No process is forked within a body. */
 void mr_parallel(const mr_ctx *ctx, size_t count, size_t grain, mr_body body, void *arg);
 
 /* The sum of `term(arg, i)` over [0, count): pieces of 4096 terms are summed in order, then the pieces in

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <setjmp.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -282,6 +283,52 @@ loops_visit_each_index_once_and_sums_do_not_depend_on_threads(void **state)
 	mr_ctx_free(&ctx);
 }
 
+typedef struct nest {
+	const mr_ctx *ctx;
+	double sum[40];
+} nest;
+
+static void
+sum_again(void *arg, size_t begin, size_t end)
+{
+	nest *n = arg;
+
+	for (; begin < end; begin++)
+		n->sum[begin] = mr_parallel_sum(n->ctx, 20000, term, NULL);
+}
+
+/* Also where helpers were at work before the process was copied, which has none of them; a thread sanitizer
+ * ends such a copy as soon as it starts a thread. */
+static void
+loops_in_loops_and_in_a_copy_of_the_process(void **state)
+{
+	mr_ctx ctx;
+	nest n;
+	int status = 0;
+	pid_t child = 0;
+
+	(void)state;
+	mr_ctx_init(&ctx, 4);
+	n.ctx = &ctx;
+	mr_parallel(&ctx, 40, 1, sum_again, &n);
+#ifndef __SANITIZE_THREAD__
+	child = fork();
+	assert_true(child >= 0);
+#endif
+	for (int i = 0; i < 10; i++)
+		mr_parallel(&ctx, 40, 1, sum_again, &n);
+	for (int i = 0; i < 40; i++)
+		status |= n.sum[i] != mr_parallel_sum(&ctx, 20000, term, NULL);
+#ifndef __SANITIZE_THREAD__
+	if (child == 0)
+		_exit(status);
+	assert_int_equal(status, 0);
+	assert_int_equal(waitpid(child, &status, 0), child);
+#endif
+	assert_int_equal(status, 0);
+	mr_ctx_free(&ctx);
+}
+
 /* Lists of all lengths about the one where insertion ends: ascending, and each value once. */
 static void
 lists_are_sorted(void **state)
@@ -340,6 +387,7 @@ main(void)
 		cmocka_unit_test(lists_are_sorted),
 		cmocka_unit_test(medians),
 		cmocka_unit_test(loops_visit_each_index_once_and_sums_do_not_depend_on_threads),
+		cmocka_unit_test(loops_in_loops_and_in_a_copy_of_the_process),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
