@@ -35,6 +35,9 @@ static const double UPRIGHT = 0.5;
 /* Points count across a curve within that many spacings along it, and further than GAP from it. */
 static const double ALONG = 1.5, GAP = 0.5;
 
+/* The share of the points' weights across an edge, from which they count as lying on one side. */
+static const double ONE_SIDED = 0.95;
+
 /* The share of its angle that a curve jumps by, at least, as if EVEN more edges that cross it did not jump.
  */
 static const double JUMP = 0.85, EVEN = 2;
@@ -312,6 +315,16 @@ jump_of(const double *s)
 	return (xx * hy - xh * xy) / (xx * hh - xh * xh);
 }
 
+static void
+drop(const finder *f, uint32_t h)
+{
+	uint32_t twin = f->topo.twin[h];
+
+	f->middle[h] = MR_NONE;
+	if (twin != MR_NONE)
+		f->middle[twin] = MR_NONE;
+}
+
 /* Drops the curves, from corner to corner, across which the normals turn evenly, and those that are too short
  * to tell. */
 static bool
@@ -338,17 +351,25 @@ drop_curves(mr_ctx *ctx, const finder *f, crossing *c, size_t n)
 			sum[curve][k] += c[i].sum[k];
 	}
 	for (size_t i = 0; i < n; i++) {
-		uint32_t curve = mr_sets_root(set, (uint32_t)i), twin = f->topo.twin[c[i].h];
+		uint32_t curve = mr_sets_root(set, (uint32_t)i);
 		if (f->middle[c[i].h] == MR_NONE ||
 		    jump_of(sum[curve]) * edges[curve] >= JUMP * (edges[curve] + EVEN))
 			continue;
 		any = true;
-		f->middle[c[i].h] = MR_NONE;
-		if (twin != MR_NONE)
-			f->middle[twin] = MR_NONE;
+		drop(f, c[i].h);
 	}
 	mr_mark_release(ctx, here);
 	return any;
+}
+
+/* Drops the crossings that have points on one side only: a wrap that spans what nobody saw bends at its rim.
+ */
+static void
+drop_one_sided(const finder *f, const crossing *c, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		if (!(fabs(c[i].sum[WH]) < ONE_SIDED * c[i].sum[W]))
+			drop(f, c[i].h);
 }
 
 /* Numbers the edges that are crossed by curves: none unless more than a share of those that seem to be are.
@@ -375,6 +396,7 @@ cut_edges(mr_ctx *ctx, finder *f, double share)
 	MR_TRY(query(ctx, f, at, n, &near));
 	for (size_t i = 0; i < n; i++)
 		look_across(f, near + NEAREST * i, at[i], &c[i]);
+	drop_one_sided(f, c, n);
 	for (int round = 0; round < ROUNDS && drop_curves(ctx, f, c, n); round++)
 		;
 	f->cut = 0;

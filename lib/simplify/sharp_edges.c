@@ -80,25 +80,51 @@ drop_pieces(mr_ctx *ctx, const mr_dyn *d, double length)
 	mr_mark_release(ctx, here);
 }
 
-/* The kind of v, with a corner where a curve turns by more than that of the cosine; and of boundaries without
- * sharp edges no corner: scans have ragged ones. */
+/* Whether two curve edges meet at v, their ends, and the cosine between them. */
+static bool
+turn_at(const mr_dyn *d, uint32_t v, uint32_t end[2], double *turn)
+{
+	if (mr_dyn_along(d, v, end) != 2)
+		return false;
+	*turn = mr_dot(mr_unit(mr_sub(d->p[v], d->p[end[0]])), mr_unit(mr_sub(d->p[end[1]], d->p[v])));
+	return true;
+}
+
+/* Whether the curve from v by w meets others within `reach`, or turns more than at v. */
+static bool
+is_outdone(const mr_dyn *d, uint32_t v, double turn, uint32_t w, double reach)
+{
+	uint32_t from = v, end[2], next;
+	double there;
+
+	for (; w != v && mr_dist(d->p[v], d->p[w]) < reach; from = w, w = next) {
+		if (!turn_at(d, w, end, &there) || there < turn || (!(there > turn) && w < v))
+			return true;
+		next = end[0] == from ? end[1] : end[0];
+	}
+	return false;
+}
+
+/* The kind of v, with a corner where a curve turns the most within `reach`, if that is not 0; and of
+ * boundaries without sharp edges no corner: scans have ragged ones. */
 static mr_kind
-kind_of(const mr_dyn *d, uint32_t v, double turn)
+kind_of(const mr_dyn *d, uint32_t v, double reach)
 {
 	uint32_t end[2];
-	unsigned curves = d->kind[v] == MR_DEAD ? 0 : mr_dyn_along(d, v, end);
-	mr_v3 p = d->p[v];
+	double turn;
 
-	if (curves == 0)
+	if (d->kind[v] == MR_DEAD || mr_dyn_along(d, v, end) == 0)
 		return (mr_kind)d->kind[v];
-	if (curves == 2 && (mr_dyn_on_boundary(d, v) || mr_dot(mr_unit(mr_sub(p, d->p[end[0]])),
-							    mr_unit(mr_sub(d->p[end[1]], p))) > turn))
-		return MR_CURVE;
-	return MR_CORNER;
+	if (!turn_at(d, v, end, &turn))
+		return MR_CORNER;
+	return mr_dyn_on_boundary(d, v) || reach == 0 || turn > TURN ||
+	               is_outdone(d, v, turn, end[0], reach) || is_outdone(d, v, turn, end[1], reach)
+	           ? MR_CURVE
+	           : MR_CORNER;
 }
 
 bool
-mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length, bool turns)
+mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length, double reach)
 {
 	bool any = false;
 
@@ -118,7 +144,7 @@ mr_sharp_edges(mr_ctx *ctx, mr_dyn *d, double length, bool turns)
 		if (d->twin[h] == MR_NONE)
 			d->curve[h] = h;
 	for (uint32_t v = 0; v < d->nv; v++)
-		d->kind[v] = (uint8_t)kind_of(d, v, turns ? TURN : -2);
+		d->kind[v] = (uint8_t)kind_of(d, v, reach);
 	return true;
 }
 

@@ -371,7 +371,8 @@ find_sharp_edges(simplifier *s, const mr_mesh *m)
 	size_t most = s->most > s->target ? s->most : s->target;
 	double edge = s->scale * sqrt(2.3 * mr_mesh_area(s->ctx, m) / (double)(most + 1));
 
-	if (mr_sharp_edges(s->ctx, &s->d, s->o->creases || s->faces <= most ? 0 : 3 * edge, !s->ties->face))
+	if (mr_sharp_edges(s->ctx, &s->d, s->o->creases || s->faces <= most ? 0 : 3 * edge,
+		s->ties->face ? 0 : edge / 2))
 		s->longest = 1.5 * edge;
 }
 
