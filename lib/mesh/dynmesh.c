@@ -1,6 +1,7 @@
 /* Splits, collapses and flips of half-edges, and what they need to know of their surroundings. */
 #include "mesh/dynmesh.h"
 
+#include "base/parallel.h"
 #include "mesh/zorder.h"
 
 unsigned
@@ -82,6 +83,8 @@ room_for_vertices(mr_ctx *ctx, mr_dyn *d, size_t room)
 	d->out = out;
 	d->at = at;
 	d->kind = kind;
+	if (d->block)
+		d->block = mr_grow(ctx, d->block, d->nv, room, sizeof *d->block);
 	d->room_v = room;
 }
 
@@ -157,6 +160,14 @@ remove_face(mr_dyn *d, uint32_t f)
 	d->free_f = f;
 }
 
+static void
+remove_vertex(mr_dyn *d, uint32_t v)
+{
+	d->kind[v] = MR_DEAD;
+	d->out[v] = d->free_v;
+	d->free_v = v;
+}
+
 /* Cuts the face of h = a -> b at m to (a, m, c) and face f = (m, b, c); the caller links the halves of h. */
 static void
 cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
@@ -196,6 +207,8 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
 	d->at[m] = mr_dyn_on_curve(d, h) ? mr_dyn_curve(d, h) : mr_dyn_place(d, a);
+	if (d->block)
+		d->block[m] = d->block[a];
 	cut_face(d, h, m, f);
 	d->out[m] = 3 * f;
 	if (g == MR_NONE) {
@@ -207,6 +220,57 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 	}
 	*middle = m;
 	return MR_OK;
+}
+
+mr_status
+mr_dyn_reserve(mr_ctx *ctx, mr_dyn *d, size_t splits)
+{
+	if (d->room_v - d->nv < splits)
+		room_for_vertices(ctx, d, d->nv + splits);
+	return d->room_f - d->nf < 2 * splits ? room_for_faces(ctx, d, d->nf + 2 * splits) : MR_OK;
+}
+
+void
+mr_dyn_lend(mr_dyn *d, size_t splits, mr_dyn *part)
+{
+	*part = *d;
+	part->free_v = part->free_f = MR_NONE;
+	part->room_v = d->nv += splits;
+	part->room_f = d->nf += 2 * splits;
+}
+
+void
+mr_dyn_take_back(mr_dyn *d, mr_dyn *part)
+{
+	for (uint32_t v = part->free_v, next; v != MR_NONE; v = next) {
+		next = d->out[v];
+		remove_vertex(d, v);
+	}
+	for (uint32_t f = part->free_f, next; f != MR_NONE; f = next) {
+		next = d->twin[3 * f];
+		remove_face(d, f);
+	}
+	while (part->room_v > part->nv) {
+		d->block[--part->room_v] = 0;
+		remove_vertex(d, (uint32_t)part->room_v);
+	}
+	while (part->room_f > part->nf)
+		remove_face(d, (uint32_t)--part->room_f);
+	part->free_v = part->free_f = MR_NONE;
+}
+
+void
+mr_dyn_share(const mr_dyn *d, mr_dyn *part)
+{
+	mr_dyn shared = *d;
+
+	shared.nv = part->nv;
+	shared.nf = part->nf;
+	shared.room_v = part->room_v;
+	shared.room_f = part->room_f;
+	shared.free_v = part->free_v;
+	shared.free_f = part->free_f;
+	*part = shared;
 }
 
 /* Marks the neighbours of v, or with 0 takes the marks back. */
@@ -336,9 +400,7 @@ mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p)
 		close_face(d, g);
 	keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
 	d->p[b] = p;
-	d->kind[a] = MR_DEAD;
-	d->out[a] = d->free_v;
-	d->free_v = a;
+	remove_vertex(d, a);
 }
 
 bool
@@ -483,20 +545,59 @@ mr_dyn_view(const mr_dyn *d, const char *name)
 
 /* ---- numbers without holes, and along the Z curve (Morton 1966) ---- */
 
+enum { GRAIN = 1 << 14 };
+
+typedef struct permutation {
+	char *array, *copy;
+	size_t size;
+	const uint32_t *number;
+} permutation;
+
+static void
+copy_body(void *arg, size_t begin, size_t end)
+{
+	const permutation *j = arg;
+
+	memcpy(j->copy + begin * j->size, j->array + begin * j->size, (end - begin) * j->size);
+}
+
+static void
+permute_body(void *arg, size_t begin, size_t end)
+{
+	const permutation *j = arg;
+
+	for (size_t i = begin; i < end; i++)
+		if (j->number[i] != MR_NONE)
+			memcpy(j->array + j->number[i] * j->size, j->copy + i * j->size, j->size);
+}
+
 /* Applies new numbers to an array of n objects, but to those without: new[number[i]] = old[i]. */
 static void
 permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
 {
 	MR_SCOPE(ctx);
-	char *copy, *to = array;
+	permutation j = { array, NULL, size, number };
 
 	if (!array)
 		return;
-	copy = mr_alloc(ctx, n, size);
-	memcpy(copy, array, n * size);
-	for (size_t i = 0; i < n; i++)
-		if (number[i] != MR_NONE)
-			memcpy(to + number[i] * size, copy + i * size, size);
+	j.copy = mr_alloc(ctx, n, size);
+	mr_parallel(ctx, n, GRAIN, copy_body, &j);
+	mr_parallel(ctx, n, GRAIN, permute_body, &j);
+}
+
+typedef struct renumbering {
+	mr_dyn *d;
+	const uint32_t *number;
+} renumbering;
+
+static void
+corners_body(void *arg, size_t begin, size_t end)
+{
+	const renumbering *j = arg;
+
+	for (size_t f = begin; f < end; f++)
+		for (size_t h = 3 * f; h < 3 * f + 3 && !mr_dyn_face_dead(j->d, f); h++)
+			j->d->v[h] = j->number[j->d->v[h]];
 }
 
 static void
@@ -506,9 +607,8 @@ permute_vertices(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
 	permute(ctx, d->out, d->nv, sizeof *d->out, number);
 	permute(ctx, d->at, d->nv, sizeof *d->at, number);
 	permute(ctx, d->kind, d->nv, sizeof *d->kind, number);
-	for (size_t h = 0; h < 3 * d->nf; h++)
-		if (!mr_dyn_face_dead(d, h / 3))
-			d->v[h] = number[d->v[h]];
+	permute(ctx, d->block, d->nv, sizeof *d->block, number);
+	mr_parallel(ctx, d->nf, GRAIN, corners_body, &(renumbering){ d, number });
 }
 
 static uint32_t
@@ -517,15 +617,33 @@ renumbered(const uint32_t *number, uint32_t h)
 	return h == MR_NONE ? MR_NONE : 3 * number[h / 3] + h % 3;
 }
 
+static void
+twins_body(void *arg, size_t begin, size_t end)
+{
+	const renumbering *j = arg;
+
+	for (size_t f = begin; f < end; f++)
+		for (size_t h = 3 * f; h < 3 * f + 3 && !mr_dyn_face_dead(j->d, f); h++)
+			j->d->twin[h] = renumbered(j->number, j->d->twin[h]);
+}
+
+static void
+out_body(void *arg, size_t begin, size_t end)
+{
+	const renumbering *j = arg;
+
+	for (size_t v = begin; v < end; v++)
+		j->d->out[v] = renumbered(j->number, j->d->out[v]);
+}
+
 /* nv: of the vertices that live. */
 static void
 permute_faces(mr_ctx *ctx, mr_dyn *d, size_t nv, const uint32_t *number)
 {
-	for (size_t h = 0; h < 3 * d->nf; h++)
-		if (!mr_dyn_face_dead(d, h / 3))
-			d->twin[h] = renumbered(number, d->twin[h]);
-	for (size_t v = 0; v < nv; v++)
-		d->out[v] = renumbered(number, d->out[v]);
+	renumbering j = { d, number };
+
+	mr_parallel(ctx, d->nf, GRAIN, twins_body, &j);
+	mr_parallel(ctx, nv, GRAIN, out_body, &j);
 	permute(ctx, d->v, d->nf, 3 * sizeof *d->v, number);
 	permute(ctx, d->twin, d->nf, 3 * sizeof *d->twin, number);
 	permute(ctx, d->curve, d->nf, 3 * sizeof *d->curve, number);

@@ -19,6 +19,8 @@ typedef struct mr_dyn {
 	uint32_t
 	    *at; /* place on the source surface: a face, or on a curve a half-edge (space/surface_walk.h) */
 	uint8_t *kind; /* mr_kind */
+	uint32_t
+	    *block; /* of each vertex: neighbours that one thread may change (remesh/blocks.h), or NULL */
 	size_t nv, room_v;
 	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
 	uint32_t *v, *twin;
@@ -150,6 +152,18 @@ bool mr_dyn_can_split(const mr_dyn *d, uint32_t h);
 /* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
  * Only where mr_dyn_can_split. */
 mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
+
+/* Room for so many splits without memory. */
+mr_status mr_dyn_reserve(mr_ctx *ctx, mr_dyn *d, size_t splits);
+
+/* A part of d for a thread: the same arrays with room of its own for so many splits, which d has reserved. */
+void mr_dyn_lend(mr_dyn *d, size_t splits, mr_dyn *part);
+
+/* Holes that part made or did not use are d's again, and part has none. */
+void mr_dyn_take_back(mr_dyn *d, mr_dyn *part);
+
+/* The arrays of d, which may have moved, are those of part. */
+void mr_dyn_share(const mr_dyn *d, mr_dyn *part);
 
 /* True where the start of h can be merged into its end and the mesh stays a manifold of the same topology.
  * mark: nv zeros, which it leaves zero. */

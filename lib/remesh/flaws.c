@@ -2,6 +2,8 @@
  * leaves fewer flaws stays. */
 #include "remesh/flaws.h"
 
+#include "base/parallel.h"
+
 /* Shapes that are better than a flaw, in the order in which they are tried. */
 static const double least[] = { MR_NEEDLE, 0.02, 0.001 };
 
@@ -11,6 +13,7 @@ typedef struct mender {
 	mr_dyn *d;
 	const mr_remesh_source *s;
 	uint8_t *mark; /* for the link condition */
+	bool *asked;   /* faces that may be flawed: the others were not, and nothing near them has changed */
 	double least;  /* shape of what is made */
 	size_t left;   /* faces that may still be tried */
 	bool last;     /* resort: tips give way, and a merge may leave as many flaws on fewer faces */
@@ -28,19 +31,32 @@ is_flipped(const mr_dyn *d, const mr_remesh_source *s, uint32_t f)
 	return mr_remesh_against(s, d, d->at, &d->v[3 * f], mr_dyn_cross(d, d->p, f));
 }
 
-mr_flaws
-mr_flaws_count(const mr_dyn *d, const mr_remesh_source *s)
+static double
+flipped_term(void *arg, size_t f)
 {
-	mr_flaws n = { 0, 0 };
+	const mender *w = arg;
 
-	for (uint32_t f = 0; f < d->nf; f++) {
-		if (mr_dyn_face_dead(d, f))
-			continue;
-		n.flipped += is_flipped(d, s, f);
-		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
-			n.folded += h < d->twin[h] && mr_dyn_folds(d, h, MR_FOLD);
-	}
+	return !mr_dyn_face_dead(w->d, f) && is_flipped(w->d, w->s, (uint32_t)f);
+}
+
+static double
+folded_term(void *arg, size_t f)
+{
+	const mr_dyn *d = ((const mender *)arg)->d;
+	double n = 0;
+
+	for (uint32_t h = 3 * (uint32_t)f; h < 3 * f + 3 && !mr_dyn_face_dead(d, f); h++)
+		n += h < d->twin[h] && mr_dyn_folds(d, h, MR_FOLD);
 	return n;
+}
+
+mr_flaws
+mr_flaws_count(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s)
+{
+	mender w = { .d = (mr_dyn *)(uintptr_t)d, .s = s };
+
+	return (mr_flaws){ (size_t)mr_parallel_sum(ctx, d->nf, flipped_term, &w),
+		(size_t)mr_parallel_sum(ctx, d->nf, folded_term, &w) };
 }
 
 static bool
@@ -51,6 +67,31 @@ is_flawed(const mender *w, uint32_t f)
 	return !mr_dyn_face_dead(d, f) &&
 	       (mr_dyn_folds(d, 3 * f, MR_FOLD) || mr_dyn_folds(d, 3 * f + 1, MR_FOLD) ||
 		   mr_dyn_folds(d, 3 * f + 2, MR_FOLD) || is_flipped(d, w->s, f));
+}
+
+static void
+ask_body(void *arg, size_t begin, size_t end)
+{
+	const mender *w = arg;
+
+	for (size_t f = begin; f < end; f++)
+		w->asked[f] = is_flawed(w, (uint32_t)f);
+}
+
+/* v has changed: asks for the faces around it and those beside them. */
+static void
+ask_around(mender *w, uint32_t v)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+
+	do {
+		uint32_t across = d->twin[mr_he_next(h)];
+		w->asked[h / 3] = true;
+		if (across != MR_NONE)
+			w->asked[across / 3] = true;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
 }
 
 /* The flipped faces around v and the folded edges of all these. */
@@ -116,8 +157,10 @@ try_spot(mender *w, uint32_t v, mr_v3 p, bool project, unsigned flaws)
 	double shape = worst_shape(d, v, MR_NONE);
 
 	put(d, v, (spot){ project ? c.point : p, c.at.face });
-	if (worst_shape(d, v, MR_NONE) >= fmin(shape, w->least) && flaws_around(w, v) < flaws)
+	if (worst_shape(d, v, MR_NONE) >= fmin(shape, w->least) && flaws_around(w, v) < flaws) {
+		ask_around(w, v);
 		return true;
+	}
 	put(d, v, old);
 	return false;
 }
@@ -160,8 +203,12 @@ mend_edge(mender *w, uint32_t h)
 	mr_dyn_flip(d, h);
 	g = mr_he_next(h); /* the edge that it made */
 	if (shape_of(d, g / 3) > w->least && shape_of(d, d->twin[g] / 3) > w->least &&
-	    flaws_beside(w, g) < flaws)
+	    flaws_beside(w, g) < flaws) {
+		ask_around(w, d->v[g]);
+		ask_around(w, mr_dyn_to(d, g));
 		return true;
+	}
+	w->asked[g / 3] = w->asked[d->twin[g] / 3] = true; /* back, each has the other's number */
 	mr_dyn_flip(d, g);
 	return false;
 }
@@ -187,10 +234,12 @@ try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 	good = fmin(worst_shape(d, a, b), worst_shape(d, b, a)) > fmin(shape, w->least) &&
 	       flaws_around(w, a) + flaws_around(w, b) < flaws;
 	put(d, a, old[0]);
-	if (good)
+	if (good) {
 		mr_dyn_collapse(d, h, to.p);
-	else
+		ask_around(w, b);
+	} else {
 		put(d, b, old[1]);
+	}
 	return good;
 }
 
@@ -264,7 +313,7 @@ mend_all(mender *w)
 	bool mended = false;
 
 	for (uint32_t f = 0; f < w->d->nf && w->left > 0; f++)
-		if (is_flawed(w, f)) {
+		if (w->asked[f] && (w->asked[f] = is_flawed(w, f))) {
 			w->left--;
 			mended |= mend_face(w, f);
 		}
@@ -279,8 +328,13 @@ void
 mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mender w = { .d = d, .s = s, .mark = MR_NEW_ZERO(ctx, d->nv, uint8_t), .left = 1000 + d->nf / 16 };
+	mender w = { .d = d,
+		.s = s,
+		.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t),
+		.asked = MR_NEW(ctx, d->nf, bool),
+		.left = 1000 + d->nf / 16 };
 
+	mr_parallel(ctx, d->nf, 4096, ask_body, &w);
 	for (int stage = 0; stage < STAGES; stage++) {
 		w.least = least[stage];
 		w.last = stage == STAGES - 1;

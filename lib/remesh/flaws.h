@@ -12,7 +12,7 @@ typedef struct mr_flaws {
 	size_t flipped, folded; /* faces and edges */
 } mr_flaws;
 
-mr_flaws mr_flaws_count(const mr_dyn *d, const mr_remesh_source *s);
+mr_flaws mr_flaws_count(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s);
 
 /*
  * Around every flaw moves a vertex, on the surface where it can be, flips an edge or merges two vertices, the

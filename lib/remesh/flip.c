@@ -5,12 +5,14 @@
 #include "remesh/flip.h"
 
 #include "base/parallel.h"
+#include "remesh/blocks.h"
 
 enum { REACH_MAX = 64 };
 
 typedef struct flipper {
 	mr_dyn *d;
 	int *excess; /* of each vertex: its valence over the one it should have */
+	unsigned reach;
 } flipper;
 
 static void
@@ -74,34 +76,52 @@ flip(flipper *w, uint32_t h)
 	mr_dyn_flip(d, h);
 }
 
-static size_t
-flip_gaining(flipper *w)
+static bool
+gains(const void *arg, uint32_t h)
 {
-	mr_dyn *d = w->d;
-	size_t flips = 0;
+	const flipper *w = arg;
+	const mr_dyn *d = w->d;
 
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (!mr_dyn_face_dead(d, h / 3) && d->twin[h] != MR_NONE && h < d->twin[h] &&
-		    gain_of(w, h) > 0 && mr_dyn_can_flip(d, h) && mr_flip_is_good(d, h)) {
-			flip(w, h);
-			flips++;
-		}
-	return flips;
+	return !mr_dyn_face_dead(d, h / 3) && d->twin[h] != MR_NONE && h < d->twin[h] && gain_of(w, h) > 0;
+}
+
+/* The flipper of a part. */
+static flipper
+within(const void *arg, mr_part *part)
+{
+	flipper w = *(const flipper *)arg;
+
+	w.d = part->d;
+	return w;
+}
+
+static void
+flip_gaining(const void *arg, mr_part *part, uint32_t h)
+{
+	flipper w = within(arg, part);
+
+	if (w.d->twin[h] == MR_NONE || gain_of(&w, h) <= 0 || !mr_dyn_can_flip(w.d, h) ||
+	    !mr_flip_is_good(w.d, h))
+		return;
+	flip(&w, h);
+	mr_part_ask_around(part, w.d->v[mr_he_next(h)]); /* the ends of the new edge have one more each */
+	mr_part_ask_around(part, mr_dyn_to(w.d, mr_he_next(h)));
+	part->done[0]++;
 }
 
 /*
  * The edge a -> b of h has a 5-valent apex c and a 7-valent end.  Its flip moves the pair one
  * vertex on; the next edge is the one across, on the side away from the 7-valent end.  Follows the
- * row while the sum stays the same; true where it was lowered, else all is as before.
+ * row while the sum stays the same; where it is never lowered, all is as before.
  */
-static bool
-glide(flipper *w, uint32_t h, bool seven_at_end, unsigned reach, size_t *flips)
+static void
+glide(flipper *w, mr_part *part, uint32_t h, bool seven_at_end)
 {
 	mr_dyn *d = w->d;
 	uint32_t made[REACH_MAX]; /* the edges that the flips made */
 	unsigned n = 0;
 
-	while (n < reach && h != MR_NONE && d->twin[h] != MR_NONE) {
+	while (n < w->reach && h != MR_NONE && d->twin[h] != MR_NONE && mr_part_owns(part, h)) {
 		int gain = gain_of(w, h);
 		uint32_t g = d->twin[h];
 		if (gain < 0 || !mr_dyn_can_flip(d, h) || !mr_flip_is_good(d, h))
@@ -109,8 +129,8 @@ glide(flipper *w, uint32_t h, bool seven_at_end, unsigned reach, size_t *flips)
 		flip(w, h);
 		made[n++] = mr_he_next(h);
 		if (gain > 0) {
-			*flips += n;
-			return true;
+			part->done[0] += n;
+			return;
 		}
 		/* h is a -> e now and g is b -> c; across a-e or e-b lies the next face */
 		h = d->twin[seven_at_end ? h : mr_he_prev(g)];
@@ -119,35 +139,45 @@ glide(flipper *w, uint32_t h, bool seven_at_end, unsigned reach, size_t *flips)
 	}
 	while (n > 0)
 		flip(w, made[--n]);
-	return false;
 }
 
-static size_t
-glide_dislocations(flipper *w, unsigned reach)
+/* A dislocation at h: a 5-valent apex, and a 7-valent end. */
+static bool
+is_dislocation(const void *arg, uint32_t h)
 {
+	const flipper *w = arg;
 	const mr_dyn *d = w->d;
-	size_t flips = 0;
+	int a, b;
 
-	for (uint32_t h = 0; h < 3 * d->nf; h++) {
-		int a, b;
-		if (mr_dyn_face_dead(d, h / 3) || w->excess[mr_dyn_apex(d, h)] != -1)
-			continue;
-		a = w->excess[d->v[h]];
-		b = w->excess[mr_dyn_to(d, h)];
-		if ((a == 1 && b == 0) || (a == 0 && b == 1))
-			glide(w, h, b == 1, reach, &flips);
-	}
-	return flips;
+	if (mr_dyn_face_dead(d, h / 3) || w->excess[mr_dyn_apex(d, h)] != -1)
+		return false;
+	a = w->excess[d->v[h]];
+	b = w->excess[mr_dyn_to(d, h)];
+	return (a == 1 && b == 0) || (a == 0 && b == 1);
+}
+
+static void
+glide_dislocation(const void *arg, mr_part *part, uint32_t h)
+{
+	flipper w = within(arg, part);
+
+	if (is_dislocation(&w, h))
+		glide(&w, part, h, w.excess[mr_dyn_to(w.d, h)] == 1);
 }
 
 void
 mr_regularize(mr_ctx *ctx, mr_dyn *d, unsigned reach, size_t *flips)
 {
 	MR_SCOPE(ctx);
-	flipper w = { d, MR_NEW(ctx, d->nv, int) };
+	flipper w = { d, MR_NEW(ctx, d->nv, int), reach < REACH_MAX ? reach : REACH_MAX };
+	mr_edge_work flips_that_gain = { .is_due = gains, .serve = flip_gaining, .arg = &w },
+		     glides = { .is_due = is_dislocation, .serve = glide_dislocation, .arg = &w };
+	mr_edge_queue queue = { 0 };
+	size_t n[2] = { 0, 0 };
 
 	mr_parallel(ctx, d->nv, 4096, excess_body, &w);
-	*flips = flip_gaining(&w);
+	mr_serve_edges(ctx, d, &flips_that_gain, &queue, n);
 	if (reach > 0)
-		*flips += glide_dislocations(&w, reach < REACH_MAX ? reach : REACH_MAX);
+		mr_serve_edges(ctx, d, &glides, &queue, n);
+	*flips = n[0];
 }

@@ -17,6 +17,7 @@ typedef struct pass {
 	float *part;     /* in the same memory as p: of each half-edge, as in areas_job */
 	double *gravity; /* of each vertex, first its area */
 	mr_v3 *p;        /* where the vertices go */
+	mr_v3 *last;     /* the way of each in the last pass, where there is momentum */
 	uint32_t *at;
 } pass;
 
@@ -154,7 +155,7 @@ mr_remesh_place(const mr_remesh_source *s, const mr_dyn *d, uint32_t v, mr_v3 q,
 	return best;
 }
 
-/* p + lambda (I - n n^T) (g - p) */
+/* p + (I - n n^T) (lambda (g - p) + the momentum) */
 static mr_v3
 tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
 {
@@ -179,8 +180,10 @@ tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
 	if (!(mass > 0))
 		return p;
 	*normal = n = mr_unit(n);
-	move = mr_mul(1 / mass, g);
-	return mr_axpy(w->o->damping, mr_axpy(-mr_dot(move, n), n, move), p);
+	move = mr_mul(w->o->damping / mass, g);
+	if (w->last)
+		move = mr_axpy(w->o->momentum, w->last[v], move);
+	return mr_add(p, mr_axpy(-mr_dot(move, n), n, move));
 }
 
 /* Along the curve: towards where it divides the way between its two neighbours as the target lengths there
@@ -248,6 +251,7 @@ pass_new(mr_ctx *ctx, pass *w)
 	char *shared = MR_NEW(ctx, p > parts ? p : parts, char);
 
 	w->gravity = w->o->gravity > 0 ? MR_NEW(ctx, nv, double) : NULL;
+	w->last = w->o->momentum > 0 ? MR_NEW_ZERO(ctx, nv, mr_v3) : NULL;
 	w->at = MR_NEW(ctx, nv, uint32_t);
 	w->part = (void *)shared;
 	w->p = (void *)shared;
@@ -273,6 +277,22 @@ one_pass(mr_ctx *ctx, mr_dyn *d, pass *w)
 	return mr_move_unfolded(ctx, &m, &(mr_topology){ d->twin, d->out }, MR_NEEDLE, w->p);
 }
 
+static void
+keep_body(void *arg, size_t begin, size_t end)
+{
+	pass *w = arg;
+	mr_dyn *d = w->d;
+
+	for (size_t v = begin; v < end; v++) {
+		if (memcmp(&w->p[v], &d->p[v], sizeof *d->p) !=
+		    0) /* else what was held back is where it was */
+			d->at[v] = w->at[v];
+		if (w->last)
+			w->last[v] = mr_sub(w->p[v], d->p[v]);
+		d->p[v] = w->p[v];
+	}
+}
+
 mr_status
 mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts *o)
 {
@@ -283,12 +303,7 @@ mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts 
 	for (size_t i = 1; i <= o->passes; i++) {
 		w.project = o->project && i == o->passes;
 		MR_TRY(one_pass(ctx, d, &w));
-		for (size_t v = 0; v < d->nv; v++) {
-			if (memcmp(&w.p[v], &d->p[v], sizeof *d->p) !=
-			    0) /* else what was held back is where it was */
-				d->at[v] = w.at[v];
-			d->p[v] = w.p[v];
-		}
+		mr_parallel(ctx, d->nv, GRAIN, keep_body, &w);
 	}
 	return MR_OK;
 }

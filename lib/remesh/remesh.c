@@ -82,7 +82,9 @@ static mr_status
 equalize_areas(remesher *r)
 {
 	enum { EVERY = 5 };
-	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity, .project = r->o->project };
+	mr_relax_opts o = {
+		.damping = 0.8, .momentum = 0.4, .gravity = r->o->gravity, .project = r->o->project
+	};
 
 	area_variance(r, &r->variance[0]);
 	r->variance[1] = r->variance[0];
@@ -114,35 +116,6 @@ thin_out(remesher *r)
 	} while (r->changes.strung - before > r->d.nv / enough);
 }
 
-/*
- * One round of the paper's four steps.  In step 3 dislocations glide; the reach is short, since a long
- * glide shears the rows it passes more than the next relaxation can undo.
- *
- * The first round bisects edges that are much too long step by step, all to twice the length before any to
- * the length, and what is too dense goes in between: bisected all at once a sliver leaves slivers like it,
- * four times as many for edges half as long, whatever its area.
- */
-static mr_status
-one_round(remesher *r, bool first)
-{
-	enum { REACH = 3, RELAX = 3 };
-	mr_relax_opts o = {
-		.damping = 1, .gravity = r->source.length ? 1 : 0, .passes = RELAX, .project = r->o->project
-	};
-
-	for (double coarser = first ? mr_coarsest(&r->d, &r->source) : 1; coarser > 1; coarser /= 2) {
-		MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, coarser, &r->changes));
-		thin_out(r);
-	}
-	MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, 1, &r->changes));
-	mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes);
-	if (first)
-		MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* it leaves as many holes as vertices */
-	regularize(r, REACH);
-	MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
-	return MR_OK;
-}
-
 static size_t
 changes(const remesher *r)
 {
@@ -167,8 +140,35 @@ static mr_status
 tidy(remesher *r)
 {
 	r->tidied = changes(r);
-	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
-	mr_dyn_order(r->ctx, &r->d);
+	return mr_blocks_divide(r->ctx, &r->d);
+}
+
+/*
+ * One round of the paper's four steps.  In step 3 dislocations glide; the reach is short, since a long
+ * glide shears the rows it passes more than the next relaxation can undo.
+ *
+ * The first round bisects edges that are much too long step by step, all to twice the length before any to
+ * the length, and what is too dense goes in between: bisected all at once a sliver leaves slivers like it,
+ * four times as many for edges half as long, whatever its area.
+ */
+static mr_status
+one_round(remesher *r, bool first)
+{
+	enum { REACH = 3, RELAX = 3 };
+	mr_relax_opts o = {
+		.damping = 1, .gravity = r->source.length ? 1 : 0, .passes = RELAX, .project = r->o->project
+	};
+
+	for (double coarser = first ? mr_coarsest(&r->d, &r->source) : 1; coarser > 1; coarser /= 2) {
+		MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, coarser, &r->changes));
+		thin_out(r);
+	}
+	MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, 1, &r->changes));
+	mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes);
+	if (first)
+		MR_TRY(tidy(r)); /* it leaves as many holes as vertices */
+	regularize(r, REACH);
+	MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	return MR_OK;
 }
 
@@ -324,8 +324,10 @@ run(remesher *r)
 	double before = INFINITY, after, had = 1;
 	size_t rounds = r->o->rounds;
 
-	if (rounds > 0)
+	if (rounds > 0) {
+		MR_TRY(tidy(r));
 		thin_out(r);
+	}
 	MR_TRY(check_demand(r));
 	for (size_t i = 0; i < rounds; i++) {
 		if (i > 0) {
@@ -341,8 +343,8 @@ run(remesher *r)
 		before = after;
 		if (i + 1 == rounds && misses(excess(r)) && rounds < 2 * r->o->rounds)
 			rounds++; /* it was far more, or is thinner than its edges */
-		if (i == 0 || i + 1 == rounds || is_untidy(r))
-			MR_TRY(tidy(r)); /* the first round changes most */
+		if (i + 1 == rounds || is_untidy(r))
+			MR_TRY(tidy(r));
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(rounds + 1));
 	}
 	return equalize_areas(r);
@@ -416,10 +418,10 @@ mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_kept *kept,
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	MR_TRY(set_up(&r, m, &topo, kept ? kept->seam : NULL));
 	MR_TRY(run(&r));
-	r.flaws = mr_flaws_count(&r.d, &r.source);
+	r.flaws = mr_flaws_count(ctx, &r.d, &r.source);
 	if (r.flaws.flipped + r.flaws.folded > 0 && o->rounds > 0) {
 		mr_mend_flaws(ctx, &r.d, &r.source);
-		r.flaws = mr_flaws_count(&r.d, &r.source);
+		r.flaws = mr_flaws_count(ctx, &r.d, &r.source);
 	}
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
 	map_to_source(&r, map);

@@ -1,7 +1,6 @@
 /* Steps 1 and 2 of Botsch, Kobbelt 2004, section 4. */
 #include "remesh/split_collapse.h"
 
-#include "base/parallel.h"
 #include "space/surface_walk.h"
 
 /* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
@@ -18,21 +17,18 @@ static const double STRETCHED = 1.05, SQUEEZED = 0.95;
 static const double HAIR = 1e-6;
 static const double WIDE = 0.2588190451025207, NARROW = 0.7071067811865476; /* cosines of 75 and 45 degrees */
 
-typedef struct resampler resampler;
-
-struct resampler {
-	mr_ctx *ctx;
+typedef struct resampler {
 	mr_dyn *d;
 	const mr_remesh_source *s;
-	double coarser; /* what is too long is so by as much */
-	mr_resampled *done;
+	double coarser;  /* what is too long is so by as much */
+	size_t most;     /* faces that there may be */
 	uint8_t *mark;   /* for the link condition */
 	uint8_t *strung; /* of each vertex: it was merged though an edge there is too long */
-	uint8_t *
-	    look; /* of each of the first `looks` faces a bit a half-edge: it may be too long, or too short */
-	size_t looks;
-	bool (*is_due)(const resampler *r, uint32_t h); /* that edge is to be split, or merged */
-};
+	mr_part *part;   /* whose mesh d is */
+} resampler;
+
+/* What the part has done. */
+enum { DONE, STRUNG };
 
 static double
 edge_length2(const mr_dyn *d, uint32_t h)
@@ -71,12 +67,15 @@ longest_side(const mr_dyn *d, uint32_t h)
 
 /*
  * An edge at or near h that is the longest of both its faces (Rivara 1984): bisecting only
- * such edges keeps the angles from collapsing.  Lengths grow on the way, so it ends.
+ * such edges keeps the angles from collapsing.  Lengths grow on the way, so it ends; MR_NONE where it leaves
+ * the part.
  */
 static uint32_t
-locally_longest(const mr_dyn *d, uint32_t h)
+locally_longest(const mr_part *part, uint32_t h)
 {
-	for (;;) {
+	const mr_dyn *d = part->d;
+
+	while (mr_part_owns(part, h)) {
 		uint32_t g = longest_side(d, h);
 		if (g == h && d->twin[h] != MR_NONE) {
 			g = longest_side(d, d->twin[h]);
@@ -87,6 +86,7 @@ locally_longest(const mr_dyn *d, uint32_t h)
 			return h;
 		h = g;
 	}
+	return MR_NONE;
 }
 
 /* Cosine of the angle opposite h in its face. */
@@ -129,63 +129,6 @@ too_short(const resampler *r, uint32_t h)
 		return true;
 	return l2 < mr_square(SQUEEZED * l) && is_inside(d, h) && opposite_cosine(d, h) > NARROW &&
 	       opposite_cosine(d, d->twin[h]) > NARROW;
-}
-
-enum { GRAIN = 2048 };
-
-static void
-look_body(void *arg, size_t begin, size_t end)
-{
-	const resampler *r = arg;
-
-	for (size_t f = begin; f < end; f++) {
-		r->look[f] = 0;
-		for (uint32_t k = 0; k < 3; k++)
-			if (is_edge(r->d, (uint32_t)(3 * f + k)) && r->is_due(r, (uint32_t)(3 * f + k)))
-				r->look[f] |= (uint8_t)(1 << k);
-	}
-}
-
-/* Looks at all edges, on all threads, for those that are due: few are, but for the first time, and what
- * changes after that is near what was changed. */
-static void
-look_at_all(resampler *r)
-{
-	MR_RESERVE(r->ctx, r->done->look, 0, r->d->nf, &r->done->room);
-	r->look = r->done->look;
-	r->looks = r->d->nf;
-	mr_parallel(r->ctx, r->looks, GRAIN, look_body, r);
-}
-
-/* False where the edge of h was not due when it was looked at, and nothing has changed there since. */
-static bool
-may_be_due(const resampler *r, uint32_t h)
-{
-	return h / 3 >= r->looks || r->look[h / 3] >> h % 3 & 1;
-}
-
-static void
-look_again(const resampler *r, uint32_t h)
-{
-	if (h != MR_NONE && h / 3 < r->looks)
-		r->look[h / 3] |= (uint8_t)(1 << h % 3);
-}
-
-/* v has changed, and so have the faces around it. */
-static void
-look_around(const resampler *r, uint32_t v)
-{
-	const mr_dyn *d = r->d;
-	uint32_t h = d->out[v];
-
-	do {
-		uint32_t side[3] = { h, mr_he_next(h), mr_he_prev(h) };
-		for (int i = 0; i < 3; i++) {
-			look_again(r, side[i]);
-			look_again(r, d->twin[side[i]]);
-		}
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
 }
 
 /* The place of a new vertex, first that of an end of its edge: a walk from there may not get to it. */
@@ -253,28 +196,79 @@ mr_coarsest(const mr_dyn *d, const mr_remesh_source *s)
 	return coarser;
 }
 
+static bool
+is_long(const void *arg, uint32_t h)
+{
+	const resampler *r = arg;
+
+	return is_edge(r->d, h) && too_long(r, h);
+}
+
+/* The resampler of a part. */
+static resampler
+within(const void *arg, mr_part *part)
+{
+	resampler r = *(const resampler *)arg;
+
+	r.d = part->d;
+	r.part = part;
+	return r;
+}
+
+/* Splits edge g, the longest of its faces; false where it cannot be. */
+static bool
+split(resampler *r, uint32_t g)
+{
+	mr_dyn *d = r->d;
+	mr_v3 a = d->p[d->v[g]], b = d->p[mr_dyn_to(d, g)], middle = mr_lerp(0.5, a, b);
+	uint32_t m;
+
+	if (!mr_dyn_can_split(d, g) || !mr_divides(middle, a, b))
+		return false;
+	r->part->status = r->part->ctx && d->nf >= r->most ? mr_too_fine(r->part->ctx, r->s, (double)d->nf,
+								 (double)r->most, 2 * r->s->uniform)
+	                                                   : mr_dyn_split(r->part->ctx, d, g, middle, &m);
+	if (r->part->status < 0)
+		return false;
+	if (d->kind[m] == MR_SMOOTH)
+		place_middle(r, m);
+	mr_part_ask_around(r->part, m);
+	r->part->done[DONE]++;
+	return true;
+}
+
+static void
+split_long(const void *arg, mr_part *part, uint32_t h)
+{
+	resampler r = within(arg, part);
+	bool going = true;
+
+	while (going && too_long(&r, h)) {
+		uint32_t g = locally_longest(part, h);
+		going = g != MR_NONE && mr_part_has_room(part) && split(&r, g);
+		if (g == MR_NONE)
+			mr_part_defer(part, h);
+		else if (!mr_part_has_room(part)) {
+			part->full = true;
+			mr_part_ask(part, h);
+		}
+	}
+}
+
 /* 1. Split all edges that are longer than 4/3 l at their midpoint. */
 mr_status
 mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser, mr_resampled *done)
 {
-	resampler r = { .ctx = ctx, .d = d, .s = s, .coarser = coarser, .done = done, .is_due = too_long };
+	resampler r = { .d = d, .s = s, .coarser = coarser, .most = done->most };
+	mr_edge_work work = {
+		.is_due = is_long, .serve = split_long, .arg = &r, .splits = true, .most = done->most
+	};
 
-	look_at_all(&r);
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		while (may_be_due(&r, h) && is_edge(d, h) && too_long(&r, h)) {
-			uint32_t g = locally_longest(d, h), m;
-			mr_v3 a = d->p[d->v[g]], b = d->p[mr_dyn_to(d, g)], middle = mr_lerp(0.5, a, b);
-			if (!mr_dyn_can_split(d, g) || !mr_divides(middle, a, b))
-				break;
-			if (d->nf >= done->most)
-				return mr_too_fine(ctx, s, (double)d->nf, (double)done->most, 2 * s->uniform);
-			MR_TRY(mr_dyn_split(ctx, d, g, middle, &m));
-			if (d->kind[m] == MR_SMOOTH)
-				place_middle(&r, m);
-			look_around(&r, m);
-			done->splits++;
-		}
-	return MR_OK;
+	size_t n[2] = { 0, 0 };
+	mr_status status = mr_serve_edges(ctx, d, &work, &done->queue, n);
+
+	done->splits += n[DONE];
+	return status;
 }
 
 /* False where moving the end v of an edge to p makes it too long; where it is so already, `*strung`. */
@@ -441,27 +435,44 @@ try_collapse(resampler *r, uint32_t h)
 		return;
 	mr_dyn_collapse(d, h, p);
 	d->at[b] = at;
-	look_around(r, b);
+	mr_part_ask_around(r->part, b);
 	r->strung[b] = strung;
-	r->done->strung += strung;
+	r->part->done[STRUNG] += strung;
 	if (strung && d->kind[b] == MR_SMOOTH)
 		d->at[b] = mr_remesh_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).at.face;
-	r->done->collapses++;
+	r->part->done[DONE]++;
+}
+
+static bool
+is_short(const void *arg, uint32_t h)
+{
+	const resampler *r = arg;
+
+	return is_edge(r->d, h) && too_short(r, h);
+}
+
+static void
+collapse_short(const void *arg, mr_part *part, uint32_t h)
+{
+	resampler r = within(arg, part);
+
+	if (too_short(&r, h))
+		try_collapse(&r, h);
 }
 
 /* 2. Collapse all edges that are shorter than 4/5 l into their midpoint. */
 void
 mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
-	resampler r = { .ctx = ctx, .d = d, .s = s, .coarser = 1, .done = done, .is_due = too_short };
-	mr_mark mark;
+	mr_edge_queue_reserve(ctx, d, &done->queue);
+	MR_SCOPE(ctx);
+	resampler r = { .d = d, .s = s, .coarser = 1 };
+	mr_edge_work work = { .is_due = is_short, .serve = collapse_short, .arg = &r };
+	size_t n[2] = { 0, 0 };
 
-	look_at_all(&r);
-	mark = mr_mark_take(ctx);
 	r.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	r.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t);
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (may_be_due(&r, h) && is_edge(d, h) && too_short(&r, h))
-			try_collapse(&r, h);
-	mr_mark_release(ctx, mark);
+	mr_serve_edges(ctx, d, &work, &done->queue, n);
+	done->collapses += n[DONE];
+	done->strung += n[STRUNG];
 }

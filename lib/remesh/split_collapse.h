@@ -6,6 +6,7 @@
 #ifndef MR_REMESH_SPLIT_COLLAPSE_H
 #define MR_REMESH_SPLIT_COLLAPSE_H
 
+#include "remesh/blocks.h"
 #include "remesh/relax.h"
 
 /* What was done, added up, and how. */
@@ -13,8 +14,7 @@ typedef struct mr_resampled {
 	size_t splits, collapses;
 	size_t strung; /* collapses of vertices that edges which are too long hold on to */
 	size_t most;   /* faces that there may be */
-	uint8_t *look; /* workspace in the arena, kept from one call to the next */
-	size_t room;
+	mr_edge_queue queue;
 } mr_resampled;
 
 /* How many faces the surface may take, by area where its own are wider than an edge, and by length where they

@@ -54,4 +54,4 @@ awk 'BEGIN {
 }' >book.xyz
 mr-import book.xyz | mr-shrinkwrap -q -o book.mrs
 mr-info -l control book.mrs | sed -n 's/^ *topology *//p'
-mr-normals -l control book.mrs | mr-export -q -l control -f xyz - | awk '!/#/ && $3 < 1 && $1 > 20 { n[$6 > 0 ? "up" : "down"]++ } END { for (i in n) print i }'
+mr-normals -l control book.mrs | mr-export -q -l control -f xyz - | awk '!/#/ && $3 < 1 && $1 > 20 && $1 < 57 { n[$6 > 0 ? "up" : "down"]++ } END { for (i in n) print i }'

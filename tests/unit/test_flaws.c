@@ -31,7 +31,7 @@ folded(const mr_dyn *d, uint32_t h)
 static size_t
 count(const scene *x)
 {
-	mr_flaws n = mr_flaws_count(&x->d, &x->s);
+	mr_flaws n = mr_flaws_count(&ctx, &x->d, &x->s);
 
 	return n.flipped + n.folded;
 }

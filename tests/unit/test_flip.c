@@ -1,4 +1,5 @@
 /* Flips: which are good, what they leave, and dislocations that glide until they meet. */
+#include "remesh/blocks.h"
 #include "remesh/flip.h"
 #include "remesh_scene.h"
 
@@ -159,6 +160,40 @@ what_gains_is_flipped(void **state)
 	}
 }
 
+/* In blocks, and between them: the same on any number of threads, and nearly all that gains. */
+static void
+blocks_are_flipped_alike_on_all_threads(void **state)
+{
+	uint32_t *first = NULL;
+
+	(void)state;
+	for (unsigned threads = 1; threads <= 4; threads++) {
+		mr_random r = { 1 };
+		size_t flips, left = 0;
+		scene x;
+		set_up(&x, shape(MR_SPHERE, 60000), 180);
+		ctx.threads = threads;
+		assert_int_equal(mr_blocks_divide(&ctx, &x.d), MR_OK);
+		for (int k = 0; k < 100000; k++) {
+			uint32_t h = (uint32_t)(mr_random_bits(&r) % (3 * x.d.nf));
+			if (may_flip(&x, h))
+				mr_dyn_flip(&x.d, h);
+		}
+		mr_regularize(&ctx, &x.d, 3, &flips);
+		for (uint32_t h = 0; h < 3 * x.d.nf; h++)
+			left += may_flip(&x, h) && gain(&x.d, h) > 0;
+		assert_true(left < flips / 20);
+		if (!first)
+			first = test_malloc(3 * x.d.nf * sizeof *first);
+		if (threads == 1)
+			memcpy(first, x.d.v, 3 * x.d.nf * sizeof *first);
+		assert_memory_equal(first, x.d.v, 3 * x.d.nf * sizeof *first);
+		mr_ctx_free(&ctx);
+		mr_ctx_init(&ctx, 1);
+	}
+	test_free(first);
+}
+
 enum { N = 16, ROW = N / 2 };
 
 /* A lattice of squares, all with the same diagonals, which are both good; or its mirror image. */
@@ -258,6 +293,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(a_flip_over_a_roof_is_not_too_steep, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_flip_does_not_fold_what_is_beside, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_gains_is_flipped, setup, teardown),
+		cmocka_unit_test_setup_teardown(blocks_are_flipped_alike_on_all_threads, setup, teardown),
 		cmocka_unit_test_setup_teardown(dislocations_glide_until_they_meet, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_dislocation_leaves_where_it_came_in, setup, teardown),
 	};
