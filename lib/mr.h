@@ -325,7 +325,7 @@ typedef struct mr_remesh_opts {
 	const double *lengths; /* at each vertex, in units of the model, at most; NULL: by the others */
 } mr_remesh_opts;
 
-#define MR_REMESH_DEFAULTS MR_DEFAULTS(0, false, 0.95, 5, 10, 1.5, 180, 0, 0, 0, false, true, NULL, NULL)
+#define MR_REMESH_DEFAULTS MR_DEFAULTS(0, false, 0.95, 5, 20, 1.5, 180, 0, 0, 0, false, true, NULL, NULL)
 
 typedef struct mr_remesh_result {
 	double length; /* target edge length; the mean where it is adaptive */

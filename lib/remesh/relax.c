@@ -17,7 +17,6 @@ typedef struct pass {
 	float *part;     /* in the same memory as p: of each half-edge, as in areas_job */
 	double *gravity; /* of each vertex, first its area */
 	mr_v3 *p;        /* where the vertices go */
-	mr_v3 *last;     /* the way of each in the last pass, where there is momentum */
 	uint32_t *at;
 } pass;
 
@@ -155,7 +154,7 @@ mr_remesh_place(const mr_remesh_source *s, const mr_dyn *d, uint32_t v, mr_v3 q,
 	return best;
 }
 
-/* p + (I - n n^T) (lambda (g - p) + the momentum) */
+/* p + lambda (I - n n^T) (g - p) */
 static mr_v3
 tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
 {
@@ -180,10 +179,8 @@ tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
 	if (!(mass > 0))
 		return p;
 	*normal = n = mr_unit(n);
-	move = mr_mul(w->o->damping / mass, g);
-	if (w->last)
-		move = mr_axpy(w->o->momentum, w->last[v], move);
-	return mr_add(p, mr_axpy(-mr_dot(move, n), n, move));
+	move = mr_mul(1 / mass, g);
+	return mr_axpy(w->o->damping, mr_axpy(-mr_dot(move, n), n, move), p);
 }
 
 /* Along the curve: towards where it divides the way between its two neighbours as the target lengths there
@@ -251,7 +248,6 @@ pass_new(mr_ctx *ctx, pass *w)
 	char *shared = MR_NEW(ctx, p > parts ? p : parts, char);
 
 	w->gravity = w->o->gravity > 0 ? MR_NEW(ctx, nv, double) : NULL;
-	w->last = w->o->momentum > 0 ? MR_NEW_ZERO(ctx, nv, mr_v3) : NULL;
 	w->at = MR_NEW(ctx, nv, uint32_t);
 	w->part = (void *)shared;
 	w->p = (void *)shared;
@@ -287,8 +283,6 @@ keep_body(void *arg, size_t begin, size_t end)
 		if (memcmp(&w->p[v], &d->p[v], sizeof *d->p) !=
 		    0) /* else what was held back is where it was */
 			d->at[v] = w->at[v];
-		if (w->last)
-			w->last[v] = mr_sub(w->p[v], d->p[v]);
 		d->p[v] = w->p[v];
 	}
 }

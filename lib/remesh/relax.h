@@ -21,9 +21,8 @@ typedef struct mr_remesh_source {
 } mr_remesh_source;
 
 typedef struct mr_relax_opts {
-	double damping;  /* lambda, 0 to 1 */
-	double gravity;  /* exponent of the vertex area; 0: the plain centroid */
-	double momentum; /* share of the last pass's way that each pass goes on (Polyak 1964) */
+	double damping; /* lambda, 0 to 1 */
+	double gravity; /* exponent of the vertex area; 0: the plain centroid */
 	size_t passes;
 	bool project; /* back onto the source in the last pass */
 } mr_relax_opts;

@@ -82,9 +82,7 @@ static mr_status
 equalize_areas(remesher *r)
 {
 	enum { EVERY = 5 };
-	mr_relax_opts o = {
-		.damping = 0.8, .momentum = 0.4, .gravity = r->o->gravity, .project = r->o->project
-	};
+	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity, .project = r->o->project };
 
 	area_variance(r, &r->variance[0]);
 	r->variance[1] = r->variance[0];

@@ -29,8 +29,8 @@ mr-make sphere -n 500 --points 50 | mr-export points.xyz
 wc -l <points.xyz
 mr-make knot --points 70 -o points.mrs
 mr-cat --merge torus.mrs points.mrs >both.mrs
-mr-export -i both.mrs -l points -f pts - | head -n 1
-mr-export -i both.mrs -f off - | head -n 1
+mr-export -i both.mrs -l points -f pts - | sed -n 1p
+mr-export -i both.mrs -f off - | sed -n 1p
 
 echo '-- what fails leaves no file, and an old one as it was'
 echo precious >old.pwn
