@@ -112,7 +112,7 @@ static void
 test_none(void **state)
 {
 	mr_mesh a = shape(MR_BUMPY, 3000), b = shape(MR_KNOT, 3000), three = part(&a, 0, 1),
-		none = { "none", 0 };
+		none = { .name = "none" };
 	mr_comparison c = { .diagonal = 1, .both.mean = 1 };
 	mr_align_result r = aligned(&a, &b, false);
 
