@@ -7,11 +7,11 @@
 
 typedef enum kind { V, VT, VN, FACE, NOTHING, OTHER, KINDS } kind;
 
-/* What is left out: numbers of vertices and texture coordinates; texture coordinates that are not finite;
- * corners that name a value that is not there; statements. */
+/* Counts of what the reader leaves out: surplus numbers of a v or vt line, texture coordinates that are not
+ * finite, indices without a value, unknown statements. */
 typedef enum loss { NUMBERS, ODD_TEXCOORDS, NO_TEXCOORDS, NO_NORMALS, STATEMENTS, LOSSES } loss;
 
-/* Where a block begins, and the lines of each kind before it. */
+/* The begin of a block, and how many lines of each kind come before it. */
 typedef struct boundary {
 	const char *begin;
 	size_t lines[KINDS];
@@ -29,7 +29,7 @@ typedef struct obj {
 	size_t lost[LOSSES];
 } obj;
 
-/* What the faces from one on are marked with. */
+/* A statement that marks all faces after it. */
 typedef struct mark {
 	size_t face, corner; /* of the block */
 	mr_marking what;

@@ -15,12 +15,12 @@ struct job {
 	job *below;          /* that wants helpers, too */
 };
 
-/* Of the process. */
+/* All loops of the process share these. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t wanted = PTHREAD_COND_INITIALIZER, done = PTHREAD_COND_INITIALIZER;
-static job *jobs;   /* that want helpers */
-static size_t idle; /* helpers that no job wants */
-static bool forks;  /* are heard of */
+static job *jobs;      /* that want helpers */
+static size_t idle;    /* helpers that no job wants */
+static bool has_hooks; /* pthread_atfork knows the three below */
 
 static void
 work(job *j)
@@ -31,7 +31,7 @@ work(job *j)
 		j->body(j->arg, begin, j->count - begin < j->grain ? j->count : begin + j->grain);
 }
 
-/* From now on the job wants nobody. */
+/* Takes the job off the list: no more helpers come to it. */
 static void
 leave(job *j)
 {
@@ -91,15 +91,15 @@ in_new_process(void)
 	idle = 0;
 }
 
-/* Starts a helper; one that cannot be had is not missed: the others take its pieces. */
+/* Starts a helper.  If there is none, the others take its pieces. */
 static bool
 start_helper(void)
 {
 	pthread_t thread;
 
-	if (!forks)
-		forks = pthread_atfork(before_fork, after_fork, in_new_process) == 0;
-	if (!forks || pthread_create(&thread, NULL, help, NULL))
+	if (!has_hooks)
+		has_hooks = pthread_atfork(before_fork, after_fork, in_new_process) == 0;
+	if (!has_hooks || pthread_create(&thread, NULL, help, NULL))
 		return false;
 	pthread_detach(thread);
 	idle++;
