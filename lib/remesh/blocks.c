@@ -1,5 +1,5 @@
-/* Edges wait in queues of their faces, a queue for each block.  What is at home in a block touches no face of
- * another, and no vertex whose faces another block may change. */
+/* Each block has a queue of faces whose edges wait.  A vertex is at home in a block if all its faces lie
+ * there; a thread changes edges only between vertices at home in its block. */
 #include "remesh/blocks.h"
 
 #include "base/parallel.h"
@@ -206,15 +206,23 @@ room_for(const mr_part *p)
 	return p->full && p->waiting ? p->waiting / 4 + 32 : 0;
 }
 
+static size_t
+room_for_all(const blocks *w)
+{
+	size_t sum = 0;
+
+	for (size_t i = 0; i < w->n; i++)
+		sum += room_for(&w->part[i]);
+	return sum;
+}
+
 /* Holes for each block that waits for them. */
 static mr_status
 lend_holes(mr_ctx *ctx, mr_dyn *d, mr_edge_queue *q, const blocks *w)
 {
-	size_t wanted = 0, first = d->nv;
+	size_t first = d->nv;
 
-	for (size_t i = 0; i < w->n; i++)
-		wanted += room_for(&w->part[i]);
-	MR_TRY(mr_dyn_reserve(ctx, d, wanted));
+	MR_TRY(mr_dyn_reserve(ctx, d, room_for_all(w)));
 	for (size_t i = 0; i < w->n; i++)
 		if (w->part[i].full) {
 			mr_dyn_take_back(d, &w->part[i].own);
@@ -236,10 +244,8 @@ lend_holes(mr_ctx *ctx, mr_dyn *d, mr_edge_queue *q, const blocks *w)
 static bool
 lacks_room(const mr_dyn *d, const blocks *w)
 {
-	size_t wanted = 0;
+	size_t wanted = room_for_all(w);
 
-	for (size_t i = 0; i < w->n; i++)
-		wanted += room_for(&w->part[i]);
 	return wanted > 0 && d->nf + 2 * wanted < w->work->most;
 }
 
