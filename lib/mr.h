@@ -660,6 +660,38 @@ MR_API mr_status mr_sample_frame(
 
 enum { MR_LEVEL_MAX = 15 }; /* of subdivision */
 
+/* Displaced surfaces in few bytes (mr-compact(5)): mr-pack, mr-unpack */
+
+typedef struct mr_pack_opts {
+	double error; /* mean distance that it adds up to, as a share of the diagonal; 0: as `bytes` allow */
+	size_t bytes; /* at most; 0: as many as the error asks for */
+} mr_pack_opts;
+
+#define MR_PACK_DEFAULTS MR_DEFAULTS(1e-4, 0)
+
+typedef struct mr_pack_result {
+	size_t bytes, control_bytes; /* of all; of the control mesh */
+	size_t level, vertices;
+	double error, error_max; /* from the points or mesh that it came from, both ways, in shares of the diagonal */
+} mr_pack_result;
+
+/* byte: size, of the context. */
+MR_API mr_status mr_pack_frame(mr_ctx *ctx, mr_frame *f, const mr_pack_opts *opts, const void **byte, size_t *size,
+    mr_pack_result *result) MR_WARN_UNUSED;
+
+typedef struct mr_unpack_opts {
+	size_t bytes; /* read no more; 0: all */
+	size_t level; /* of the surface; MR_UNKNOWN: the finest */
+} mr_unpack_opts;
+
+#define MR_UNPACK_DEFAULTS MR_DEFAULTS(0, MR_UNKNOWN)
+
+typedef struct mr_unpack_result { size_t bytes, level, vertices; } mr_unpack_result;
+
+/* A key frame of control and displacement; of the first bytes alone, if they hold the control mesh, it is coarser. */
+MR_API mr_status mr_unpack_frame(mr_ctx *ctx, const void *byte, size_t size, const mr_unpack_opts *opts,
+    mr_frame **frame, mr_unpack_result *result) MR_WARN_UNUSED;
+
 typedef struct mr_subdivide_opts {
 	size_t level;          /* how many times each triangle becomes four */
 	bool limit;            /* move the vertices onto the limit surface */

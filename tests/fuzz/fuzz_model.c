@@ -1,8 +1,10 @@
 /*
  * fuzz_model.c -- the reader of the format that $FORMAT names, given any bytes: a valid model or a sentence,
  * and what is valid is written in the format, where it can be, and read again.  "gz" is a file that is
- * inflated and recognised, "png" and "jpeg" are pictures, "regions" is a file of mr-select --from.
+ * inflated and recognised, "png" and "jpeg" are pictures, "regions" is a file of mr-select --from, "mrz" the
+ * head and the bits of a packed surface, whose checksums are put in.
  */
+#include "compact/packed.h"
 #include "edit/selection_file.h"
 #include "formats/bytes.h"
 #include "formats/format.h"
@@ -11,6 +13,7 @@
 #include "formats/model.h"
 
 #include <unistd.h>
+#include <zlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
 
@@ -95,12 +98,47 @@ read_regions(mr_ctx *ctx, const uint8_t *bytes, size_t n)
 	return status;
 }
 
+/* A file of the bytes: the first says how many are its head, by two; no block is whole. */
+static size_t
+packed_file(const uint8_t *bytes, size_t n, unsigned char *file)
+{
+	size_t head = n ? 2 * (size_t)bytes[0] : 0, size = 0;
+	uint32_t check;
+
+	head = head < n ? head : n ? n - 1 : 0;
+	memcpy(file, "mrz1\n", 5);
+	size = 5;
+	file[size++] = (unsigned char)(128 | (head & 127));
+	file[size++] = (unsigned char)(head >> 7);
+	if (head)
+		memcpy(file + size, bytes + 1, head);
+	check = (uint32_t)crc32(0, file + size, (uInt)head);
+	size += head;
+	for (int i = 0; i < 4; i++)
+		file[size++] = (unsigned char)(check >> 8 * i);
+	if (n > head + 1)
+		memcpy(file + size, bytes + 1 + head, n - head - 1 < 4000 ? n - head - 1 : 4000);
+	return size + (n > head + 1 ? (n - head - 1 < 4000 ? n - head - 1 : 4000) : 0);
+}
+
+static mr_status
+read_packed(mr_ctx *ctx, const uint8_t *bytes, size_t n)
+{
+	static unsigned char file[8192];
+	mr_unpack_opts o = MR_UNPACK_DEFAULTS;
+	mr_frame *f;
+
+	return mr_unpack_frame(ctx, file, packed_file(bytes, n, file), &o, &f, NULL);
+}
+
 static mr_status
 read_any(mr_ctx *ctx, const char *format, const uint8_t *bytes, size_t n, mr_model *m)
 {
 	mr_image image;
 
 	MR_ENTER(ctx);
+	if (!strcmp(format, "mrz"))
+		return read_packed(ctx, bytes, n);
 	if (!strcmp(format, "regions"))
 		return read_regions(ctx, bytes, n);
 	if (!strcmp(format, "png"))

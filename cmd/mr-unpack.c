@@ -1,0 +1,53 @@
+/* mr-unpack -- packed surfaces to a stream.  See man/mr-unpack.1. */
+#include "cmd.h"
+#include "formats/bytes.h"
+
+#include <unistd.h>
+
+static mr_unpack_opts opts = MR_UNPACK_DEFAULTS;
+
+static const cmd_opt table[] = {
+	{ 'n', "bytes", CMD_COUNT, &opts.bytes, 1, 1e15, "N", "read the first N bytes alone", NULL },
+	{ 0, "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "J", "up to level J (default: the finest)", NULL },
+	{ 0 },
+};
+
+static mr_status
+check(cmd *c)
+{
+	if (c->operand_count == 0 && isatty(STDIN_FILENO))
+		return mr_fail(&c->ctx, MR_EUSAGE, "stdin is a terminal: pipe a file in, or name a FILE");
+	return MR_OK;
+}
+
+#define FIGURE(field) CMD_FIGURE(mr_unpack_result, field)
+static const cmd_field figures[] = { FIGURE(bytes), FIGURE(level), FIGURE(vertices), { 0 } };
+
+static mr_status
+unpack(cmd *c, const char *path)
+{
+	mr_unpack_result result;
+	mr_file_bytes file = { 0 };
+	mr_frame *f;
+
+	MR_TRY(mr_file_bytes_read(&c->ctx, path, &file));
+	MR_TRY(mr_file_bytes_end(
+	    &file, mr_prefix(&c->ctx, mr_unpack_frame(&c->ctx, file.data, file.size, &opts, &f, &result), "%s", path)));
+	cmd_figures(c, figures, &result);
+	return cmd_send(c, f);
+}
+
+static mr_status
+unpack_all(cmd *c)
+{
+	return cmd_each_operand(c, unpack);
+}
+
+const cmd_tool cmd_this = {
+	.summary = "read packed surfaces",
+	.operands = "[FILE...] [OUT.mrs]",
+	.options = table,
+	.prepare = check,
+	.source = unpack_all,
+	.fixed_layers = true,
+};

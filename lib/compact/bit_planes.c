@@ -1,0 +1,193 @@
+/* Coefficients bit by bit, the most significant ones first. */
+#include "compact/bit_planes.h"
+
+#include "subdivide/loop_ring.h"
+
+/* What is known of a bit: how large the coefficients are beside it, and at the ends of its edge, and how far
+ * its level is below the finest; whether it is of a larger one, and how large; the signs beside it. */
+enum { BESIDE = 9, ENDS = 6, DEPTH = 4, LARGE = 4 };
+
+typedef struct field_odds {
+	mr_odds first[DEPTH][ENDS][BESIDE], further[DEPTH][LARGE], sign[2][3];
+} field_odds;
+
+/* A coefficient as it is known: its size so far, and its sign. */
+#define NEGATIVE (1u << 31)
+
+typedef struct coding {
+	mr_coder *c;
+	const mr_loop *level;
+	size_t n;
+	mr_bit_planes *f;
+	uint32_t *known; /* level[n].nv */
+	field_odds *odds;
+} coding;
+
+static inline uint32_t
+size_of(uint32_t known)
+{
+	return known & ~NEGATIVE;
+}
+
+/* What is around a coefficient, in halves of the plane's bit: sums of sizes beside it, and of the ends; signs. */
+typedef struct around {
+	uint32_t beside, ends;
+	int sign;
+} around;
+
+static inline void
+look_beside(uint32_t known, unsigned plane, around *a)
+{
+	uint32_t size = size_of(known) << 1 >> plane;
+
+	a->beside += size < 64 ? size : 64;
+	a->sign += known == 0 ? 0 : known & NEGATIVE ? -1 : 1;
+}
+
+/* The odd vertex on half-edge h of the coarse level. */
+static inline uint32_t
+odd_on(const mr_loop *fine, uint32_t h)
+{
+	return fine->t[4 * (size_t)(h / 3) + 3].v[h % 3];
+}
+
+static inline around
+around_odd(const coding *s, size_t j, size_t v, unsigned plane)
+{
+	const mr_loop *fine = &s->level[j], *coarse = fine - 1;
+	uint32_t h = fine->edge[v - coarse->nv], g = coarse->topo.twin[h], ends[2];
+	around a = { 0 };
+
+	g = g == MR_NONE ? h : g;
+	look_beside(s->known[odd_on(fine, mr_he_next(h))], plane, &a);
+	look_beside(s->known[odd_on(fine, mr_he_prev(h))], plane, &a);
+	look_beside(s->known[odd_on(fine, mr_he_next(g))], plane, &a);
+	look_beside(s->known[odd_on(fine, mr_he_prev(g))], plane, &a);
+	ends[0] = mr_loop_from(coarse, h);
+	ends[1] = mr_loop_to(coarse, h);
+	for (int i = 0; i < 2; i++) {
+		uint32_t size = size_of(s->known[ends[i]]) << 1 >> plane;
+		a.ends += size < 64 ? size : 64;
+	}
+	return a;
+}
+
+static around
+around_control(const coding *s, size_t v, unsigned plane)
+{
+	around a = { 0 };
+	uint32_t count = 0;
+
+	for (mr_loop_ring r = mr_loop_ring_begin(s->level, (uint32_t)v); r.more; mr_loop_ring_step(&r), count++)
+		look_beside(s->known[r.to], plane, &a);
+	a.beside = count ? 4 * a.beside / count : 0;
+	return a;
+}
+
+static inline mr_odds *
+odds_of_first(const coding *s, size_t j, const around *a)
+{
+	static const uint8_t beside[] = { 0, 1, 2, 3, 4, 4, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7, 7, 7, 7, 7, 8 };
+	static const uint8_t ends[] = { 0, 1, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5 };
+	size_t depth = s->n - j < DEPTH ? s->n - j : DEPTH - 1;
+
+	return &s->odds->first[depth][ends[a->ends < 16 ? a->ends : 16]][beside[a->beside < 20 ? a->beside : 20]];
+}
+
+static inline mr_odds *
+odds_of_further(const coding *s, size_t j, uint32_t above)
+{
+	size_t depth = s->n - j < DEPTH ? s->n - j : DEPTH - 1;
+
+	return &s->odds->further[depth][above < LARGE ? above - 1 : LARGE - 1];
+}
+
+/* The first bit of a coefficient that is not 0, or a 0; then its sign. */
+static inline uint32_t
+code_first(const coding *s, size_t j, size_t v, unsigned plane)
+{
+	around a = j ? around_odd(s, j, v, plane) : around_control(s, v, plane);
+	int32_t x = s->f->x[v];
+	uint32_t size = (uint32_t)(x < 0 ? -x : x);
+
+	if (!mr_code_bit(s->c, odds_of_first(s, j, &a), size >> plane & 1))
+		return 0;
+	bool negative = mr_code_bit(s->c, &s->odds->sign[j > 0][a.sign < 0 ? 0 : a.sign > 0 ? 2 : 1], x < 0);
+	return 1u << plane | (negative ? NEGATIVE : 0);
+}
+
+static inline uint32_t
+code_further(const coding *s, size_t j, size_t v, unsigned plane)
+{
+	int32_t x = s->f->x[v];
+	uint32_t size = (uint32_t)(x < 0 ? -x : x), known = s->known[v];
+	bool bit = mr_code_bit(s->c, odds_of_further(s, j, size_of(known) >> (plane + 1)), size >> plane & 1);
+
+	return known | (uint32_t)bit << plane;
+}
+
+/* One bit of the coefficients of level j.  What is read becomes a number: the middle of what it may be. */
+static void
+code_plane(const coding *s, size_t j, unsigned plane)
+{
+	size_t end = s->level[j].nv;
+
+	for (size_t v = j ? s->level[j].coarse_nv : 0; v < end; v++) {
+		uint32_t known = s->known[v] ? code_further(s, j, v, plane) : code_first(s, j, v, plane);
+		if (s->c->ended)
+			return;
+		s->known[v] = known;
+		if (s->c->reading && known) {
+			int32_t size = (int32_t)(size_of(known) | 1u << plane >> 1);
+			s->f->x[v] = known & NEGATIVE ? -size : size;
+		}
+	}
+}
+
+mr_status
+mr_bit_planes_count(mr_ctx *ctx, const mr_loop *level, size_t n, mr_bit_planes *f)
+{
+	for (size_t j = 0; j <= n; j++) {
+		uint32_t all = 0;
+		uint8_t planes = 0;
+		for (size_t v = j ? level[j].coarse_nv : 0; v < level[j].nv; v++)
+			all |= (uint32_t)(f->x[v] < 0 ? -f->x[v] : f->x[v]);
+		while (planes < 32 && all >> planes)
+			planes++;
+		if (planes > MR_BIT_PLANES_MOST)
+			return mr_fail(ctx, MR_ERANGE, "the heights are too large for that error");
+		f->planes[j] = planes;
+	}
+	return MR_OK;
+}
+
+unsigned
+mr_bit_planes_passes(const mr_bit_planes *f, size_t fields, size_t n)
+{
+	unsigned passes = 0;
+
+	for (size_t i = 0; i < fields; i++)
+		for (size_t j = 0; j <= n; j++)
+			if (f[i].planes[j] > j + passes)
+				passes = f[i].planes[j] - (unsigned)j;
+	return passes;
+}
+
+void
+mr_bit_planes_code(mr_ctx *ctx, mr_coder *c, const mr_loop *level, size_t n, mr_bit_planes *f, size_t fields,
+    size_t *end)
+{
+	coding *s = MR_NEW(ctx, fields, coding);
+
+	for (size_t i = 0; i < fields; i++)
+		s[i] = (coding){ c, level, n, &f[i], MR_NEW_ZERO(ctx, level[n].nv, uint32_t),
+			MR_NEW_ZERO(ctx, 1, field_odds) };
+	for (unsigned p = mr_bit_planes_passes(f, fields, n); p-- > 0;) {
+		for (size_t j = 0; j <= n; j++)
+			for (size_t i = 0; i < fields && !c->ended; i++)
+				if (p + j < f[i].planes[j])
+					code_plane(&s[i], j, p + (unsigned)j);
+		if (end)
+			end[p] = c->count + c->waiting + MR_CODER_AHEAD;
+	}
+}

@@ -1,0 +1,35 @@
+/*
+ * bit_planes.h -- coefficients on the levels of a subdivision surface, most significant bits first, so that every
+ * beginning of what is written is a surface (Taubman 2000; Shapiro 1993): bit by bit, each with odds that what is
+ * known around it gives (Wu 1997).
+ *
+ * Pass p has of level j bit p + j: a coefficient counts as much as the square root of the area that it changes,
+ * and a level's vertices stand half as far apart as those of the one below.
+ */
+#ifndef MR_COMPACT_BIT_PLANES_H
+#define MR_COMPACT_BIT_PLANES_H
+
+#include "compact/coder.h"
+#include "subdivide/loop.h"
+
+enum { MR_BIT_PLANES_MOST = 30 };
+
+/* One field: a number a vertex. */
+typedef struct mr_bit_planes {
+	int32_t *x;                       /* level[n].nv coefficients; read: as far as they are known */
+	uint8_t planes[MR_LEVEL_MAX + 1]; /* of each level: bits of its largest one */
+} mr_bit_planes;
+
+/* Counts the planes of each level.  MR_ERANGE where there are more than MR_BIT_PLANES_MOST. */
+mr_status mr_bit_planes_count(mr_ctx *ctx, const mr_loop *level, size_t n, mr_bit_planes *f);
+
+/* How many passes there are. */
+unsigned mr_bit_planes_passes(const mr_bit_planes *f, size_t fields, size_t n);
+
+/* Writes or reads the fields, whose planes are known, each pass of all; reading: until c has ended.  The arena
+ * keeps what that takes, for c may grow in it.  end: NULL, or how many bytes reach to the end of each of
+ * MR_BIT_PLANES_MOST passes; those that there are not stay. */
+void mr_bit_planes_code(mr_ctx *ctx, mr_coder *c, const mr_loop *level, size_t n, mr_bit_planes *f, size_t fields,
+    size_t *end);
+
+#endif

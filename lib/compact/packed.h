@@ -1,0 +1,64 @@
+/*
+ * packed.h -- a displaced subdivision surface in few bytes, of which every beginning that holds the control mesh
+ * is one, too (man/mr-compact.5): a head, with the control mesh on a grid, then the bits of heights and colours
+ * in blocks.  All are whole numbers; steps and units are powers of two, so that all machines agree.
+ */
+#ifndef MR_COMPACT_PACKED_H
+#define MR_COMPACT_PACKED_H
+
+#include "compact/bit_planes.h"
+#include "compact/control_code.h"
+
+/* Fields of a vertex: its height; then of a colour lightness, orange, green (YCoCg) and, maybe, opacity. */
+enum { MR_PACKED_FIELDS = 5, MR_PACKED_NAME = 255 };
+
+typedef struct mr_packed {
+	char name[MR_PACKED_NAME + 1]; /* of the frame */
+	mr_grid_mesh control;
+	int step;          /* a vertex is at 2^step (origin + p) */
+	int64_t origin[3]; /* below 2^52 */
+	size_t n;          /* its level */
+	int unit;          /* of heights on the finest level, whose numbers are in 2^(unit - n) */
+	size_t fields;     /* 1, 4 or 5 */
+	const mr_loop *level;
+	mr_bit_planes field[MR_PACKED_FIELDS]; /* numbers, or coefficients, of level n */
+} mr_packed;
+
+/* Bytes of a file, or of the bits of its fields. */
+typedef struct mr_packed_bytes {
+	const unsigned char *byte;
+	size_t size;
+} mr_packed_bytes;
+
+/* The levels of the control mesh, in the arena.  MR_EMESH where it is no oriented manifold. */
+mr_status mr_packed_levels(mr_ctx *ctx, mr_packed *p);
+
+/* Where the control vertices are: p->control.nv, the caller's. */
+void mr_packed_positions(const mr_packed *p, mr_v3 *position);
+
+/* Heights and colours (of 0 to 255, four of each vertex) as numbers of the fields, and back.  MR_ERANGE where one
+ * is too large for the unit. */
+mr_status mr_packed_put_heights(mr_ctx *ctx, mr_packed *p, const double *height);
+void mr_packed_put_colors(mr_ctx *ctx, mr_packed *p, const uint8_t (*color)[4]);
+void mr_packed_heights(const mr_packed *p, size_t level, double *height);
+void mr_packed_colors(const mr_packed *p, size_t level, uint8_t (*color)[4]);
+
+/* The bits of all numbers, in the arena; the numbers are lost.  least: bytes that colours need. */
+mr_status mr_packed_write_fields(mr_ctx *ctx, mr_packed *p, mr_packed_bytes *bits, size_t *least);
+
+/* The numbers on level `upto`, in the arena, as far as these bits, all or the first ones, say. */
+void mr_packed_read_fields(mr_ctx *ctx, mr_packed *p, mr_packed_bytes bits, size_t upto);
+
+/* A file of the control mesh, as written, and so many bits; in the arena. */
+mr_packed_bytes
+mr_packed_file(mr_ctx *ctx, const mr_packed *p, const mr_coder *control, mr_packed_bytes bits);
+
+/* How many bytes of bits a file of `size` bytes has room for, whose head takes `head`. */
+size_t mr_packed_room(size_t head, size_t size);
+
+/* What a file says of itself, its control mesh and levels, and its bits as far as they are there, but for so many
+ * missing bytes; in the arena.  MR_EFORMAT where it is damaged, or the head is not whole. */
+mr_status
+mr_packed_open(mr_ctx *ctx, mr_packed_bytes file, mr_packed *p, mr_packed_bytes *bits, size_t *missing);
+
+#endif
