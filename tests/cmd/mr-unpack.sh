@@ -1,12 +1,12 @@
 # Beginnings and levels of packed surfaces.
-mr-make torus -n 40000 | mr-simplify -q --to control -n 200 | mr-fit -q | mr-sample -q -n 4 -o surface.mrs
+mr-make torus -n 8000 | mr-simplify -q --to control -n 200 | mr-fit -q | mr-sample -q -n 4 -o surface.mrs
 
 echo 'bytes: no more; the beginning of a file is what --bytes of both gives'
-mr-pack -e 0.005% surface.mrs a.mrz
-mr-pack -n 2000 surface.mrs b.mrz
+mr-pack -e 0.02% surface.mrs a.mrz
+mr-pack -n 800 surface.mrs b.mrz
 wc -c <b.mrz
-head -c 2000 a.mrz | mr-unpack -o cut.mrs
-mr-unpack --bytes 2000 a.mrz -o asked.mrs
+head -c 800 a.mrz | mr-unpack -o cut.mrs
+mr-unpack --bytes 800 a.mrz -o asked.mrs
 for f in cut asked; do mr-cat --no-history $f.mrs 2>/dev/null | mr-decode -q | mr-export -f ply - | cksum; done
 
 echo 'levels'

@@ -55,6 +55,7 @@ try - mr-equalize --gain 1,0.5 displaced.mrs
 try - mr-subdivide -n 2 --limit control.mrs
 try - mr-subdivide --longest 2% mesh.mrs
 try - mr-map -w map displaced.mrs
+try - mr-pack -i displaced.mrs -
 try - mr-render --size 200x200 -i mesh.mrs -
 try - mr-view -i mesh.mrs -
 try - mr-transform --rotate 1,0,0,20 mesh.mrs

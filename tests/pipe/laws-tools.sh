@@ -14,11 +14,13 @@ mr-cat --merge edit.mrs points.mrs | mr-shrinkwrap -m cube -r 5 |
     mr-sample -n 1 >still.mrs || exit
 mr-pose -H 1 --rotate 0,0,1,30 still.mrs >posed.mrs || exit
 mr-make sphere -n 500 | mr-export plain.off || exit
+mr-pack -q still.mrs plain.mrz || exit
 
 # What a tool is given besides the stream.
 arguments() {
 	case $1 in
 	mr-import) echo plain.off ;;
+	mr-unpack) echo plain.mrz ;;
 	mr-make) echo sphere -n 500 ;;
 	mr-select) echo $regions ;;
 	mr-pose) echo -H 1 --scale 2 ;;
@@ -26,6 +28,7 @@ arguments() {
 	mr-crop) echo --drop below:y,0.2 ;;
 	mr-split) echo -q ;;
 	mr-map) echo -w out ;;
+	mr-pack) echo -e 0.1% out.mrz ;;
 	mr-compare) echo -a mesh ;;
 	mr-align) echo -l mesh --from mesh still.mrs ;;
 	mr-export) echo -l mesh out.ply ;;
@@ -36,8 +39,8 @@ arguments() {
 # Source: reads no stream.  Sink: writes no stream.
 kind() {
 	case $1 in
-	mr-import | mr-make) echo source ;;
-	mr-export | mr-render | mr-view | mr-info | mr-compare) echo sink ;;
+	mr-import | mr-make | mr-unpack) echo source ;;
+	mr-export | mr-pack | mr-render | mr-view | mr-info | mr-compare) echo sink ;;
 	*) echo filter ;;
 	esac
 }
