@@ -8,7 +8,8 @@ static mr_unpack_opts opts = MR_UNPACK_DEFAULTS;
 
 static const cmd_opt table[] = {
 	{ 'n', "bytes", CMD_COUNT, &opts.bytes, 1, 1e15, "N", "read the first N bytes alone", NULL },
-	{ 0, "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "J", "up to level J (default: the finest)", NULL },
+	{ 0, "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "J", "up to level J (default: the finest)",
+	    NULL },
 	{ 0 },
 };
 
@@ -32,7 +33,8 @@ unpack(cmd *c, const char *path)
 
 	MR_TRY(mr_file_bytes_read(&c->ctx, path, &file));
 	MR_TRY(mr_file_bytes_end(
-	    &file, mr_prefix(&c->ctx, mr_unpack_frame(&c->ctx, file.data, file.size, &opts, &f, &result), "%s", path)));
+	    &file, mr_prefix(&c->ctx, mr_unpack_frame(&c->ctx, file.data, file.size, &opts, &f, &result),
+		       "%s", path)));
 	cmd_figures(c, figures, &result);
 	return cmd_send(c, f);
 }

@@ -29,7 +29,8 @@ size_of(uint32_t known)
 	return known & ~NEGATIVE;
 }
 
-/* What is around a coefficient, in halves of the plane's bit: sums of sizes beside it, and of the ends; signs. */
+/* What is around a coefficient, in halves of the plane's bit: sums of sizes beside it, and of the ends;
+ * signs. */
 typedef struct around {
 	uint32_t beside, ends;
 	int sign;
@@ -78,7 +79,8 @@ around_control(const coding *s, size_t v, unsigned plane)
 	around a = { 0 };
 	uint32_t count = 0;
 
-	for (mr_loop_ring r = mr_loop_ring_begin(s->level, (uint32_t)v); r.more; mr_loop_ring_step(&r), count++)
+	for (mr_loop_ring r = mr_loop_ring_begin(s->level, (uint32_t)v); r.more;
+	     mr_loop_ring_step(&r), count++)
 		look_beside(s->known[r.to], plane, &a);
 	a.beside = count ? 4 * a.beside / count : 0;
 	return a;
@@ -91,7 +93,8 @@ odds_of_first(const coding *s, size_t j, const around *a)
 	static const uint8_t ends[] = { 0, 1, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5 };
 	size_t depth = s->n - j < DEPTH ? s->n - j : DEPTH - 1;
 
-	return &s->odds->first[depth][ends[a->ends < 16 ? a->ends : 16]][beside[a->beside < 20 ? a->beside : 20]];
+	return &s->odds->first[depth][ends[a->ends < 16 ? a->ends : 16]]
+	                      [beside[a->beside < 20 ? a->beside : 20]];
 }
 
 static inline mr_odds *
@@ -174,8 +177,8 @@ mr_bit_planes_passes(const mr_bit_planes *f, size_t fields, size_t n)
 }
 
 void
-mr_bit_planes_code(mr_ctx *ctx, mr_coder *c, const mr_loop *level, size_t n, mr_bit_planes *f, size_t fields,
-    size_t *end)
+mr_bit_planes_code(
+    mr_ctx *ctx, mr_coder *c, const mr_loop *level, size_t n, mr_bit_planes *f, size_t fields, size_t *end)
 {
 	coding *s = MR_NEW(ctx, fields, coding);
 

@@ -1,12 +1,12 @@
 /* The range coder, its end, and numbers of several bits. */
 #include "compact/coder.h"
 
-#define R(n)  ((uint16_t)(65536 * 10 / (10 * (n) + 16)))
-#define R4(n) R(n), R((n) + 1), R((n) + 2), R((n) + 3)
+#define R(n)   ((uint16_t)(65536 * 10 / (10 * (n) + 16)))
+#define R4(n)  R(n), R((n) + 1), R((n) + 2), R((n) + 3)
 #define R16(n) R4(n), R4((n) + 4), R4((n) + 8), R4((n) + 12)
 #define R64(n) R16(n), R16((n) + 16), R16((n) + 32), R16((n) + 48)
-const uint16_t mr_odds_rate[MR_ODDS_SEEN + 1] = { R64(0), R64(64), R64(128), R16(192), R16(208), R16(224), R4(240),
-	R4(244), R4(248), R(252), R(253), R(254) };
+const uint16_t mr_odds_rate[MR_ODDS_SEEN + 1] = { R64(0), R64(64), R64(128), R16(192), R16(208), R16(224),
+	R4(240), R4(244), R4(248), R(252), R(253), R(254) };
 
 void
 mr_coder_write(mr_ctx *ctx, mr_coder *c)
@@ -17,8 +17,7 @@ mr_coder_write(mr_ctx *ctx, mr_coder *c)
 void
 mr_coder_read(const void *byte, size_t size, mr_coder *c)
 {
-	*c = (mr_coder){ .reading = true, .byte = (unsigned char *)byte, .room = size,
-		.range = UINT32_MAX };
+	*c = (mr_coder){ .reading = true, .byte = (unsigned char *)byte, .room = size, .range = UINT32_MAX };
 	for (int i = 0; i < 4; i++)
 		mr_coder_shift(c);
 	c->range = UINT32_MAX;
@@ -94,7 +93,8 @@ mr_code_number(mr_coder *c, mr_number_odds *o, int32_t value)
 	if (i == 0)
 		return 0;
 	for (unsigned k = 1; k < i; k++) /* below the highest bit, which is 1 */
-		got = got << 1 | (uint32_t)(k < 3 ? mr_code_bit(c, &o->high[i][got & 3], size >> (i - 1 - k) & 1)
-		                                  : mr_code_plain(c, 1, size >> (i - 1 - k) & 1));
+		got = got << 1 |
+		      (uint32_t)(k < 3 ? mr_code_bit(c, &o->high[i][got & 3], size >> (i - 1 - k) & 1)
+				       : mr_code_plain(c, 1, size >> (i - 1 - k) & 1));
 	return mr_code_bit(c, &o->sign, value < 0) ? -(int32_t)got : (int32_t)got;
 }

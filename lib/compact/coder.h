@@ -1,12 +1,13 @@
 /* coder.h -- adaptive binary arithmetic coding in integers alone, so that all machines agree: a range coder
- * (Martin 1979) whose carries wait, as in LZMA (man/mr-compact.5, "Bits").  The same functions write and read:
- * what they are given is written, and what they give back is what is there. */
+ * (Martin 1979) whose carries wait, as in LZMA (man/mr-compact.5, "Bits").  The same functions write and
+ * read: what they are given is written, and what they give back is what is there. */
 #ifndef MR_COMPACT_CODER_H
 #define MR_COMPACT_CODER_H
 
 #include "base/ctx.h"
 
-/* What is known of a bit: of 65,536, how much more than half says 1, and of how many bits; zeroed, nothing. */
+/* What is known of a bit: of 65,536, how much more than half says 1, and of how many bits; zeroed, nothing.
+ */
 typedef struct mr_odds {
 	int16_t lean;
 	uint16_t seen;

@@ -14,14 +14,14 @@ typedef struct choices {
 typedef struct growing {
 	mr_ctx *ctx;
 	mr_coder *c;
-	mr_grid_mesh m;        /* as it is when read */
-	size_t nv, nf;         /* of it, so far */
-	uint32_t *twin;        /* MR_NONE: open; RIM: of the boundary */
+	mr_grid_mesh m;         /* as it is when read */
+	size_t nv, nf;          /* of it, so far */
+	uint32_t *twin;         /* MR_NONE: open; RIM: of the boundary */
 	uint32_t *first, *more; /* the half-edges that leave a vertex: a list */
-	uint8_t *degree;       /* faces of a vertex */
+	uint8_t *degree;        /* faces of a vertex */
 	choices *odds;
-	bool rim;              /* the edge before was of the boundary */
-	bool bad;              /* what is read is no mesh */
+	bool rim; /* the edge before was of the boundary */
+	bool bad; /* what is read is no mesh */
 	/* writing alone */
 	const mr_grid_mesh *from;
 	const mr_topology *topo;
@@ -53,8 +53,8 @@ join(growing *g, uint32_t h, uint32_t other)
 		g->twin[other] = h;
 }
 
-/* Adds a face whose first edge lies along half-edge `at`, MR_NONE: along none; its other edges join those that
- * are open.  half: its first half-edge in what is written. */
+/* Adds a face whose first edge lies along half-edge `at`, MR_NONE: along none; its other edges join those
+ * that are open.  half: its first half-edge in what is written. */
 static void
 add_face(growing *g, mr_tri t, uint32_t at, uint32_t half)
 {
@@ -259,7 +259,8 @@ code_creases(growing *g)
 		if (twin >= RIM || twin < h)
 			continue;
 		bool is = mr_code_bit(g->c, &g->odds->crease[at[a]][at[b]],
-		    g->from && (g->from->crease[g->old_half[h]] || g->from->crease[g->topo->twin[g->old_half[h]]]));
+		    g->from &&
+			(g->from->crease[g->old_half[h]] || g->from->crease[g->topo->twin[g->old_half[h]]]));
 		g->m.crease[h] = g->m.crease[twin] = is;
 		at[a] = (uint8_t)(at[a] + (is && at[a] < 2));
 		at[b] = (uint8_t)(at[b] + (is && at[b] < 2));

@@ -1,12 +1,14 @@
-/* control_code.h -- a control mesh in few bits: its triangles grow over its edges, each new vertex at its place
- * of a grid (Gumhold, Strasser 1998; Touma, Gotsman 1998, for the prediction). */
+/* control_code.h -- a control mesh in few bits: its triangles grow over its edges, each new vertex at its
+ * place of a grid (Gumhold, Strasser 1998; Touma, Gotsman 1998, for the prediction). */
 #ifndef MR_COMPACT_CONTROL_CODE_H
 #define MR_COMPACT_CONTROL_CODE_H
 
 #include "compact/coder.h"
 #include "mesh/mesh.h"
 
-typedef struct mr_grid_point { int32_t x[3]; } mr_grid_point;
+typedef struct mr_grid_point {
+	int32_t x[3];
+} mr_grid_point;
 
 enum { MR_GRID_MOST = 1 << 28 };
 
@@ -28,7 +30,7 @@ typedef struct mr_control_order {
 void mr_control_write(
     mr_ctx *ctx, mr_coder *c, const mr_grid_mesh *m, const mr_topology *topo, mr_control_order *order);
 
-/* Reads m, whose nv, nf and whether it has creases (any pointer) are known: the rest in the arena.  MR_EFORMAT
+/* Reads m, whose nv, nf and whether it has creases (any pointer) are known: the rest in the arena. MR_EFORMAT
  * where it is none; that it is a manifold is for the caller to see. */
 mr_status mr_control_read(mr_ctx *ctx, mr_coder *c, mr_grid_mesh *m);
 

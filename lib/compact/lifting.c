@@ -28,7 +28,8 @@ wings(const mr_loop *l, uint32_t h, uint32_t c, const int32_t *x)
 {
 	uint32_t g = l->topo.twin[mr_he_next(h)], k = l->topo.twin[mr_he_prev(h)];
 
-	return (int64_t)x[g == MR_NONE ? c : mr_loop_opposite(l, g)] + x[k == MR_NONE ? c : mr_loop_opposite(l, k)];
+	return (int64_t)x[g == MR_NONE ? c : mr_loop_opposite(l, g)] +
+	       x[k == MR_NONE ? c : mr_loop_opposite(l, k)];
 }
 
 static inline int64_t

@@ -57,8 +57,8 @@ static void
 put_checked(output *o, const unsigned char *byte, size_t n)
 {
 	uint32_t crc = checksum(byte, n);
-	unsigned char check[CHECK] = { (unsigned char)crc, (unsigned char)(crc >> 8), (unsigned char)(crc >> 16),
-		(unsigned char)(crc >> 24) };
+	unsigned char check[CHECK] = { (unsigned char)crc, (unsigned char)(crc >> 8),
+		(unsigned char)(crc >> 16), (unsigned char)(crc >> 24) };
 
 	put(o, byte, n);
 	put(o, check, CHECK);
@@ -70,7 +70,7 @@ is_checked(const unsigned char *byte, size_t n)
 	const unsigned char *c = byte + n;
 
 	return checksum(byte, n) ==
-	    ((uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24);
+	       ((uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24);
 }
 
 mr_packed_bytes
@@ -80,7 +80,7 @@ mr_packed_file(mr_ctx *ctx, const mr_packed *p, const mr_coder *control, mr_pack
 	size_t name = strlen(p->name);
 
 	put_number(&head, (p->control.crease ? CREASES : 0u) | (p->fields > 1 ? COLORS : 0u) |
-		(p->fields > 4 ? OPACITY : 0u));
+			      (p->fields > 4 ? OPACITY : 0u));
 	put_number(&head, p->control.nv);
 	put_number(&head, p->control.nf);
 	put_number(&head, p->n);
@@ -105,7 +105,8 @@ mr_packed_file(mr_ctx *ctx, const mr_packed *p, const mr_coder *control, mr_pack
 size_t
 mr_packed_room(size_t head, size_t size)
 {
-	size_t rest = size > head ? size - head : 0, checks = (rest + BLOCK + CHECK - 1) / (BLOCK + CHECK) * CHECK;
+	size_t rest = size > head ? size - head : 0,
+	       checks = (rest + BLOCK + CHECK - 1) / (BLOCK + CHECK) * CHECK;
 
 	return rest > checks ? rest - checks : 0;
 }
@@ -129,7 +130,8 @@ mr_packed_positions(const mr_packed *p, mr_v3 *position)
 	for (size_t v = 0; v < p->control.nv; v++) {
 		const int32_t *x = p->control.p[v].x;
 		position[v] = mr_vec(ldexp((double)(p->origin[0] + x[0]), p->step),
-		    ldexp((double)(p->origin[1] + x[1]), p->step), ldexp((double)(p->origin[2] + x[2]), p->step));
+		    ldexp((double)(p->origin[1] + x[1]), p->step),
+		    ldexp((double)(p->origin[2] + x[2]), p->step));
 	}
 }
 
@@ -223,7 +225,8 @@ get_bytes(input *in, void *to, size_t n)
 static mr_status
 get_head(mr_ctx *ctx, input *in, mr_packed *p, size_t *total)
 {
-	uint64_t flags = get_below(in, CREASES | COLORS | OPACITY), most = (uint64_t)(in->size + FEW) * MOST_A_BYTE;
+	uint64_t flags = get_below(in, CREASES | COLORS | OPACITY),
+		 most = (uint64_t)(in->size + FEW) * MOST_A_BYTE;
 
 	*p = (mr_packed){ .fields = flags & OPACITY ? 5 : flags & COLORS ? 4 : 1 };
 	p->control.nv = get_below(in, most < UINT32_MAX / 2 ? most : UINT32_MAX / 2);
@@ -264,7 +267,8 @@ get_control(mr_ctx *ctx, const input *in, size_t size, mr_packed *p)
 	return mr_packed_levels(ctx, p);
 }
 
-/* Puts the blocks together, each as its checksum says; the last one may be cut off, and is then not checked. */
+/* Puts the blocks together, each as its checksum says; the last one may be cut off, and is then not checked.
+ */
 static mr_status
 get_bits(mr_ctx *ctx, const input *in, size_t total, mr_packed_bytes *bits, size_t *missing)
 {

@@ -1,7 +1,7 @@
 /*
- * packed.h -- a displaced subdivision surface in few bytes, of which every beginning that holds the control mesh
- * is one, too (man/mr-compact.5): a head, with the control mesh on a grid, then the bits of heights and colours
- * in blocks.  All are whole numbers; steps and units are powers of two, so that all machines agree.
+ * packed.h -- a displaced subdivision surface in few bytes, of which every beginning that holds the control
+ * mesh is one, too (man/mr-compact.5): a head, with the control mesh on a grid, then the bits of heights and
+ * colours in blocks.  All are whole numbers; steps and units are powers of two, so that all machines agree.
  */
 #ifndef MR_COMPACT_PACKED_H
 #define MR_COMPACT_PACKED_H
@@ -36,8 +36,8 @@ mr_status mr_packed_levels(mr_ctx *ctx, mr_packed *p);
 /* Where the control vertices are: p->control.nv, the caller's. */
 void mr_packed_positions(const mr_packed *p, mr_v3 *position);
 
-/* Heights and colours (of 0 to 255, four of each vertex) as numbers of the fields, and back.  MR_ERANGE where one
- * is too large for the unit. */
+/* Heights and colours (of 0 to 255, four of each vertex) as numbers of the fields, and back.  MR_ERANGE where
+ * one is too large for the unit. */
 mr_status mr_packed_put_heights(mr_ctx *ctx, mr_packed *p, const double *height);
 void mr_packed_put_colors(mr_ctx *ctx, mr_packed *p, const uint8_t (*color)[4]);
 void mr_packed_heights(const mr_packed *p, size_t level, double *height);
@@ -56,8 +56,8 @@ mr_packed_file(mr_ctx *ctx, const mr_packed *p, const mr_coder *control, mr_pack
 /* How many bytes of bits a file of `size` bytes has room for, whose head takes `head`. */
 size_t mr_packed_room(size_t head, size_t size);
 
-/* What a file says of itself, its control mesh and levels, and its bits as far as they are there, but for so many
- * missing bytes; in the arena.  MR_EFORMAT where it is damaged, or the head is not whole. */
+/* What a file says of itself, its control mesh and levels, and its bits as far as they are there, but for so
+ * many missing bytes; in the arena.  MR_EFORMAT where it is damaged, or the head is not whole. */
 mr_status
 mr_packed_open(mr_ctx *ctx, mr_packed_bytes file, mr_packed *p, mr_packed_bytes *bits, size_t *missing);
 

@@ -14,7 +14,8 @@ mr_packed_put_heights(mr_ctx *ctx, mr_packed *p, const double *height)
 	for (size_t v = 0; v < nv; v++) {
 		double h = rint(ldexp(height[v], (int)p->n - p->unit));
 		if (!(fabs(h) <= HEIGHT_MOST))
-			return mr_fail(ctx, MR_ERANGE, "a height of %g is too large for that error", height[v]);
+			return mr_fail(
+			    ctx, MR_ERANGE, "a height of %g is too large for that error", height[v]);
 		x[v] = (int32_t)h;
 	}
 	return MR_OK;
@@ -36,7 +37,8 @@ mr_packed_put_colors(mr_ctx *ctx, mr_packed *p, const uint8_t (*color)[4])
 		p->field[i].x = MR_NEW(ctx, nv, int32_t);
 	for (size_t v = 0; v < nv; v++) {
 		const uint8_t *c = color[v];
-		int32_t from[] = { (c[0] + 2 * c[1] + c[2]) / 4, c[0] - c[2], c[1] - (c[0] + c[2]) / 2, c[3] };
+		int32_t from[] = { (c[0] + 2 * c[1] + c[2]) / 4, c[0] - c[2], c[1] - (c[0] + c[2]) / 2,
+			c[3] };
 		for (size_t i = 1; i < p->fields; i++)
 			p->field[i].x[v] = from[i - 1] * (1 << p->n) / (1 << color_step[i - 1]);
 	}

@@ -18,8 +18,8 @@ typedef struct packing {
 	mr_loop *level;
 	mr_domain domain; /* of the control mesh as it is */
 	const double *height;
-	const uint8_t *color;      /* four a vertex; NULL: none */
-	double diagonal, error;    /* error: a length */
+	const uint8_t *color;   /* four a vertex; NULL: none */
+	double diagonal, error; /* error: a length */
 	mr_packed p;
 	mr_control_order order;
 	mr_coder head;
@@ -27,7 +27,8 @@ typedef struct packing {
 	size_t least; /* bytes of them that colours need */
 } packing;
 
-/* What the surface came from, where that is there and it has not been posed since; else the surface itself. */
+/* What the surface came from, where that is there and it has not been posed since; else the surface itself.
+ */
 static mr_status
 get_target(mr_ctx *ctx, mr_frame *f, packing *k)
 {
@@ -58,7 +59,8 @@ get_surface(mr_ctx *ctx, mr_frame *f, packing *k)
 	MR_TRY(mr_loop_levels(ctx, &k->control, 180, k->crease, k->p.n, k->level));
 	mr_domain_on(ctx, &k->control, k->level, k->p.n, &k->domain);
 	if (mr_layer_has(f, "displacement", "color"))
-		MR_TRY(mr_frame_get(ctx, f, "displacement", "color", (mr_shape){ 'v', 'b', 4 }, &color, &rows));
+		MR_TRY(
+		    mr_frame_get(ctx, f, "displacement", "color", (mr_shape){ 'v', 'b', 4 }, &color, &rows));
 	k->color = color;
 	return get_target(ctx, f, k);
 }
@@ -122,12 +124,13 @@ reorder(const packing *k, size_t width, const void *rows, void *ordered)
 			old = 4 * old + (part == 3 ? 3 : (part + turn) % 3);
 		}
 		for (uint32_t i = 0; i < 3; i++)
-			memcpy(out + to->t[f].v[i] * width, in + from->t[old].v[(i + turn) % 3] * width, width);
+			memcpy(
+			    out + to->t[f].v[i] * width, in + from->t[old].v[(i + turn) % 3] * width, width);
 	}
 }
 
-/* Heights over the domain of the packed control mesh: where the line along its normal meets the tangent plane of
- * the surface at the vertex. */
+/* Heights over the domain of the packed control mesh: where the line along its normal meets the tangent plane
+ * of the surface at the vertex. */
 static double *
 heights_over(mr_ctx *ctx, const packing *k, const mr_domain *d)
 {
@@ -197,7 +200,8 @@ heights_of(mr_ctx *ctx, const packing *k, size_t bits)
 	return height;
 }
 
-/* How far the surface that they give is from its target: the mean of both ways, or from points to the surface. */
+/* How far the surface that they give is from its target: the mean of both ways, or from points to the
+ * surface. */
 static mr_status
 measure(mr_ctx *ctx, const packing *k, const mr_domain *d, size_t bits, double *mean, double *max)
 {
@@ -306,9 +310,11 @@ static void
 tell_if_unreached(mr_ctx *ctx, const mr_pack_opts *o, double error)
 {
 	if (o->error > 0 && o->bytes == 0 && error > 1.02 * o->error)
-		mr_found(ctx, &(mr_finding){ .kind = MR_INEXACT, .layer = "displacement",
-		    .what = mr_format(ctx, "the surface is %.2g %% off what it was made from, however many bytes",
-			100 * error) });
+		mr_found(ctx, &(mr_finding){ .kind = MR_INEXACT,
+				  .layer = "displacement",
+				  .what = mr_format(ctx,
+				      "the surface is %.2g %% off what it was made from, however many bytes",
+				      100 * error) });
 }
 
 static mr_status

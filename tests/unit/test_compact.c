@@ -1,4 +1,5 @@
-/* Packed surfaces: what is written is what is read, bit by bit, mesh by mesh, and every beginning is a surface. */
+/* Packed surfaces: what is written is what is read, bit by bit, mesh by mesh, and every beginning is a
+ * surface. */
 #include "base/random.h"
 #include "compact/lifting.h"
 #include "compact/packed.h"
@@ -48,7 +49,8 @@ test_bits_are_few(void **state)
 static void
 test_numbers_come_back(void **state)
 {
-	static const int32_t numbers[] = { 0, 1, -1, 2, 3, -4, 5, 100, -1000, 65536, -12345678, INT32_MAX, -INT32_MAX };
+	static const int32_t numbers[] = { 0, 1, -1, 2, 3, -4, 5, 100, -1000, 65536, -12345678, INT32_MAX,
+		-INT32_MAX };
 	enum { N = sizeof numbers / sizeof *numbers };
 	mr_number_odds *odds = MR_NEW_ZERO(&ctx, 2, mr_number_odds);
 	mr_coder c;
@@ -173,7 +175,9 @@ pack_wave(mr_packed *p, double *height, mr_packed_bytes *file)
 	mr_coder_write(&ctx, &c);
 	mr_control_write(&ctx, &c, &g, &topo, &order);
 	mr_coder_finish(&c);
-	*p = (mr_packed){ .name = "wave", .control = order.m, .step = -10, .n = LEVELS, .unit = -12, .fields = 1 };
+	*p = (mr_packed){
+		.name = "wave", .control = order.m, .step = -10, .n = LEVELS, .unit = -12, .fields = 1
+	};
 	assert_int_equal(mr_packed_levels(&ctx, p), MR_OK);
 	for (size_t v = 0; v < p->level[LEVELS].nv; v++)
 		height[v] = 0.2 * sin(0.37 * (double)v) + 0.1;
@@ -231,7 +235,8 @@ test_damage_is_seen(void **state)
 	for (size_t i = 0; i < file.size; i += 3) {
 		mr_mark mark = mr_mark_take(&ctx);
 		byte[i] ^= (unsigned char)(1 << i % 8);
-		assert_true(mr_packed_open(&ctx, (mr_packed_bytes){ byte, file.size }, &p, &bits, &missing) < 0);
+		assert_true(
+		    mr_packed_open(&ctx, (mr_packed_bytes){ byte, file.size }, &p, &bits, &missing) < 0);
 		byte[i] = file.byte[i];
 		mr_mark_release(&ctx, mark);
 	}
