@@ -1,6 +1,7 @@
 # What README.md shows
 #
 #	make readme   its generated parts
+#	make packed    examples/packed.png, heads of few kilobytes, of $(DATA)/meshes/igea.ply.gz
 #	make picture  examples/page.png, the picture of the page, by Chromium, which it installs
 #	make table1   the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
 
@@ -15,4 +16,7 @@ readme:
 picture: demo/index.html
 	@PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=tests python3 tests/page/picture.py $< examples/page.png
 
-.PHONY: table1 readme picture
+packed: $(TOOLS)
+	@$(RUN) sh tests/bench/packed.sh '$(DATA)/meshes/igea.ply.gz' '$(abspath examples/packed.png)'
+
+.PHONY: table1 readme picture packed

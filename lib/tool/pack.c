@@ -10,6 +10,9 @@ enum { COARSER = 3, SEARCH = 6 };
 /* The search ends so near to the error that is asked for; and so much is allowed over what all bits give. */
 #define NEARLY 0.98
 #define AMPLE  1.1
+/* Errors that are tried for a number of bytes. */
+#define COARSEST 1e-3
+#define FINEST   1e-6
 
 /* What is packed, and what it is measured against. */
 typedef struct packing {
@@ -276,13 +279,24 @@ search(mr_ctx *ctx, const packing *k, const mr_domain *d, size_t *bits)
 	return MR_OK;
 }
 
-static void
-set_steps(packing *k, const mr_pack_opts *o)
+/* All bits for an error, as a share of the diagonal; by its own choice where the bytes alone are given: the
+ * largest error for which there are more bits than those have room for. */
+static mr_status
+pack_for(mr_ctx *ctx, packing *k, const mr_pack_opts *o, mr_domain *d)
 {
+	double error = o->error > 0 ? o->error : COARSEST;
+
 	k->diagonal = mr_box_diagonal(mr_box_of(k->target.p, k->target.nv));
-	k->error = o->error * k->diagonal;
-	k->p.unit = ilogb(fmax(k->error, 1e-6 * k->diagonal)) - 1;
-	k->p.step = k->p.unit + COARSER;
+	for (;; error /= 4) {
+		mr_mark mark = mr_mark_take(ctx);
+		k->error = error * k->diagonal;
+		k->p.unit = ilogb(k->error) - 1;
+		k->p.step = k->p.unit + COARSER;
+		MR_TRY(pack_all(ctx, k, d));
+		if (o->error > 0 || k->bits.size > o->bytes || error < FINEST)
+			return MR_OK;
+		mr_mark_release(ctx, mark);
+	}
 }
 
 /* How many bytes of bits the options ask for. */
@@ -329,8 +343,7 @@ pack(mr_ctx *ctx, mr_frame *f, const mr_pack_opts *o, mr_packed_bytes *file, mr_
 		return mr_fail(ctx, MR_EUSAGE, "neither an error nor a number of bytes is asked for");
 	MR_TRY(get_surface(ctx, f, k));
 	snprintf(k->p.name, sizeof k->p.name, "%s", f->name);
-	set_steps(k, o);
-	MR_TRY(pack_all(ctx, k, &d));
+	MR_TRY(pack_for(ctx, k, o, &d));
 	MR_TRY(choose_bits(ctx, k, &d, o, &bits));
 	*file = mr_packed_file(ctx, &k->p, &k->head, (mr_packed_bytes){ k->bits.byte, bits });
 	*r = (mr_pack_result){ file->size, k->head.count, k->p.n, d.m.nv, 0, 0 };
