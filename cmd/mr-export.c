@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 static const char *format;
+static bool floats;
 static mr_string_set given;
 static mr_scene scene = { .folder = "." };
 
@@ -15,8 +16,20 @@ static const cmd_opt table[] = {
 	    "write this format (default: by the suffix of OUT)", NULL },
 	{ 0, "materials", CMD_TEXT, &scene.folder, 0, 0, "DIR",
 	    "folder of the files of materials, whose pictures a glb holds", NULL },
+	{ 0, "float", CMD_FLAG, &floats, 0, 0, NULL, "a ply has floats in place of doubles", NULL },
+	{ 0, "no-normals", CMD_FLAG, &scene.gltf.no_normals, 0, 0, NULL, "a glb has no normals", NULL },
+	{ 0, "quantize", CMD_FLAG, &scene.gltf.quantize, 0, 0, NULL,
+	    "a glb has positions and texture coordinates of 16 bits, normals of 8", NULL },
 	{ 0 },
 };
+
+static bool
+is_ply(const char *out)
+{
+	const char *name = format ? format : mr_suffix_format(out);
+
+	return name && !strcmp(name, "ply");
+}
 
 static mr_status
 check(cmd *c)
@@ -34,6 +47,11 @@ check(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s: a model under the name of a file of materials", out);
 	MR_TRY(cmd_idle(
 	    c, "materials", !mr_scene_suits(out, format), "on this format, which holds no pictures"));
+	MR_TRY(
+	    cmd_idle(c, "no-normals quantize", !mr_scene_suits(out, format), "on this format, but on glb"));
+	MR_TRY(cmd_idle(c, "float", !is_ply(out), "on this format, but on ply"));
+	if (floats)
+		format = "ply-float";
 	if (!strcmp(out, "-") && binary && isatty(STDOUT_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s is binary and stdout is a terminal", format);
 	return mr_outname(&c->ctx, out, "", 1, &name);
@@ -44,7 +62,7 @@ static mr_status
 add_to_scene(cmd *c, mr_frame *f)
 {
 	const char *out = c->operands[0];
-	mr_scene own = { .folder = scene.folder };
+	mr_scene own = { .folder = scene.folder, .gltf = scene.gltf };
 	bool varies = mr_outname_varies(out);
 	char *path;
 

@@ -14,6 +14,7 @@ static const mr_file_format formats[] = {
 	{ "gltf", false, "{", NULL, mr_gltf_read, NULL, NULL },
 	{ "ply", true, "ply\n|ply\r|ply ", NULL, mr_ply_read, mr_ply_write, NULL },
 	{ "ply-ascii", false, NULL, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
+	{ "ply-float", true, NULL, NULL, mr_ply_read, mr_ply_write_float, NULL },
 	{ "las", true, "LASF", NULL, mr_las_read, NULL, NULL },
 	{ "stl", true, NULL, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
 	{ "stl-ascii", false, NULL, NULL, mr_stl_read, mr_stl_write_ascii, NULL },

@@ -2,55 +2,12 @@
  * poses as morph targets that an animation shows one after the other.  All of a layer share its vertices. */
 #include "base/text.h"
 #include "formats/filename.h"
-#include "formats/gltf.h"
+#include "formats/gltf_writer.h"
 #include "formats/image.h"
 #include "formats/materials.h"
-#include "formats/model.h"
 #include "mesh/name_lists.h"
 
-enum { POINTS = 0, FRAMES_A_SECOND = 24 };
-
-/* The document on its way.  What jansson has no memory for is noted, and told of in the end. */
-typedef struct glb {
-	mr_sink *s;
-	mr_ctx *ctx;
-	const mr_scene *scene;
-	json_t *root, *samplers, *channels; /* of the animation */
-	bool failed, large;                 /* large: texture coordinates are, for floats */
-	unsigned char *bin;                 /* the second chunk */
-	size_t bytes, room;
-	const char **image; /* files of the images so far */
-	size_t image_room;
-	size_t unnamed; /* the material of faces without one; MR_UNKNOWN: not there yet */
-} glb;
-
-/* The vertices of a model in their order, behind them those that a seam of corners repeats. */
-typedef struct vertices {
-	size_t count;
-	uint32_t *vertex,
-	    *corner;     /* of each, the model's, and a corner that it stands for; MR_NONE: of no face */
-	uint32_t *index; /* 3 nf: the vertex of each corner */
-} vertices;
-
-/* Names of objects or materials, and which each face has: `count` for one without. */
-typedef struct face_names {
-	const char **start; /* count + 1 */
-	size_t count;
-	uint32_t *of; /* nf */
-} face_names;
-
-/* A layer on its way: accessors of its vertices, MR_UNKNOWN of what they have not. */
-typedef struct layer {
-	const mr_scene_node *node;
-	const char *name; /* of its nodes, before that of an object */
-	vertices v;
-	face_names object, material;
-	uint32_t *face;    /* nf, by object and material */
-	size_t *materials; /* of each of its names, the material of the document */
-	size_t position, normal, texcoord, color;
-	json_t *targets; /* poses */
-	size_t sampler;  /* of the poses' weights */
-} layer;
+enum { POINTS = 0 };
 
 /* ---- vertices and faces as the format has them ---- */
 
@@ -85,62 +42,6 @@ face_names_find(mr_ctx *ctx, const uint32_t *column, mr_lines lines, size_t nf, 
 	}
 }
 
-/* Numbers the corners by vertex, texture coordinates and normal: `key` of each three numbers. */
-static void
-make_keys(mr_ctx *ctx, const mr_model *m, double **key)
-{
-	size_t corners = 3 * m->nf, count;
-	uint32_t *uv = MR_NEW_ZERO(ctx, corners, uint32_t), *vn = MR_NEW_ZERO(ctx, corners, uint32_t),
-		 *first = MR_NEW(ctx, corners, uint32_t);
-
-	*key = MR_NEW(ctx, 3 * corners, double);
-	if (m->corner_texcoord)
-		mr_number_rows(ctx, m->corner_texcoord, 2, corners, uv, first, &count);
-	if (m->corner_normal)
-		mr_number_rows(ctx, &m->corner_normal->x, 3, corners, vn, first, &count);
-	for (size_t c = 0; c < corners; c++) {
-		(*key)[3 * c] = m->t[c / 3].v[c % 3];
-		(*key)[3 * c + 1] = uv[c];
-		(*key)[3 * c + 2] = vn[c] + 1.0; /* never all zero, which is none */
-	}
-}
-
-/* The first distinct corner of a vertex is that vertex, the others come behind all. */
-static void
-number_vertices(const mr_model *m, const uint32_t *first, size_t distinct, uint32_t *place, vertices *v)
-{
-	for (size_t i = 0; i < m->nv; i++) {
-		v->vertex[i] = (uint32_t)i;
-		v->corner[i] = MR_NONE;
-	}
-	v->count = m->nv;
-	for (size_t k = 0; k < distinct; k++) {
-		uint32_t vertex = m->t[first[k] / 3].v[first[k] % 3];
-		size_t at = v->corner[vertex] == MR_NONE ? vertex : v->count++;
-		v->vertex[at] = vertex;
-		v->corner[at] = first[k];
-		place[k] = (uint32_t)at;
-	}
-}
-
-static void
-vertices_find(mr_ctx *ctx, const mr_model *m, vertices *v)
-{
-	size_t corners = 3 * m->nf, distinct = 0;
-	uint32_t *number = MR_NEW(ctx, corners, uint32_t), *first = MR_NEW(ctx, corners, uint32_t), *place;
-	double *key;
-
-	make_keys(ctx, m, &key);
-	mr_number_rows(ctx, key, 3, corners, number, first, &distinct);
-	*v = (vertices){ .vertex = MR_NEW(ctx, m->nv + distinct, uint32_t),
-		.corner = MR_NEW(ctx, m->nv + distinct, uint32_t),
-		.index = number };
-	place = MR_NEW(ctx, distinct, uint32_t);
-	number_vertices(m, first, distinct, place, v);
-	for (size_t c = 0; c < corners; c++)
-		v->index[c] = place[number[c]];
-}
-
 /* ---- pieces of JSON and bytes ---- */
 
 static json_t *
@@ -150,9 +51,8 @@ owned(glb *w, json_t *json)
 	return json;
 }
 
-/* Appends to an array; its number there. */
-static size_t
-append(glb *w, json_t *array, json_t *thing)
+size_t
+mr_glb_append(glb *w, json_t *array, json_t *thing)
 {
 	size_t n = json_array_size(array);
 
@@ -160,9 +60,8 @@ append(glb *w, json_t *array, json_t *thing)
 	return n;
 }
 
-/* Appends to an array of the root, which comes with its first thing: the format forbids empty ones. */
-static size_t
-push(glb *w, const char *array, json_t *thing)
+size_t
+mr_glb_push(glb *w, const char *array, json_t *thing)
 {
 	json_t *list = json_object_get(w->root, array);
 
@@ -170,13 +69,7 @@ push(glb *w, const char *array, json_t *thing)
 		list = json_array();
 		w->failed |= json_object_set_new(w->root, array, list) != 0;
 	}
-	return append(w, list, thing);
-}
-
-static json_int_t
-number(size_t n)
-{
-	return (json_int_t)n;
+	return mr_glb_append(w, list, thing);
 }
 
 /* An array where it is not empty, which the format forbids, for "o*". */
@@ -186,54 +79,52 @@ filled(json_t *array)
 	return json_array_size(array) ? json_incref(array) : NULL;
 }
 
-/* An index for "o*": NULL where there is none. */
-static json_t *
-index_of(size_t n)
+/* Every view begins at a multiple of four bytes.  Rows of vertices have their stride named where the numbers
+ * in them do not tell it. */
+size_t
+mr_glb_new_view(glb *w, size_t count, size_t stride, size_t target, mr_view_kind kind, char **to)
 {
-	return n != MR_UNKNOWN ? json_integer(number(n)) : NULL;
-}
+	size_t bytes = count * stride, padded = (bytes + 3) / 4 * 4;
+	bool rows = kind == MR_VIEW_ROWS && target != MR_UNKNOWN;
 
-/* Room for bytes of the second chunk, up to a multiple of four, and a view of it. */
-static void
-new_view(glb *w, size_t bytes, size_t target, size_t *view, char **to)
-{
-	size_t padded = (bytes + 3) / 4 * 4;
-
-	*view = push(w, "bufferViews",
-	    json_pack("{s:i, s:I, s:I, s:o*}", "buffer", 0, "byteOffset", number(w->bytes), "byteLength",
-		number(bytes), "target", index_of(target)));
+	MR_RESERVE(w->ctx, w->view, w->views, 1, &w->view_room);
+	w->view[w->views++] = (mr_gltf_view){ w->bytes, count, stride, kind };
 	MR_RESERVE(w->ctx, w->bin, w->bytes, padded, &w->room);
 	*to = (char *)w->bin + w->bytes;
-	memset(*to + bytes, 0, padded - bytes);
+	memset(*to, 0, padded);
 	w->bytes += padded;
+	return mr_glb_push(w, "bufferViews",
+	    json_pack("{s:i, s:I, s:I, s:o*, s:o*}", "buffer", 0, "byteOffset", number(w->bytes - padded),
+		"byteLength", number(bytes), "byteStride", index_of(rows ? stride : MR_UNKNOWN), "target",
+		index_of(target)));
 }
 
-/* A view of `count` values, `size` bytes each, to be filled from `to` on, and the accessor over it. */
-static void
-new_values(glb *w, size_t count, size_t size, size_t target, size_t kind, const char *type, char **to,
-    size_t *accessor)
+size_t
+mr_glb_put_indices(glb *w, const uint32_t *index, size_t count, size_t n, size_t target)
 {
-	size_t view = 0;
+	size_t bytes = mr_index_bytes(n), view;
+	char *to = NULL;
 
-	new_view(w, size * count, target, &view, to);
-	*accessor = push(w, "accessors",
-	    json_pack("{s:I, s:I, s:I, s:s}", "bufferView", number(view), "componentType", number(kind),
-		"count", number(count), "type", type));
+	view = mr_glb_new_view(
+	    w, count, bytes, target, target == MR_UNKNOWN ? MR_VIEW_INDICES : MR_VIEW_TRIANGLES, &to);
+	for (size_t i = 0; i < count; i++, to += bytes)
+		memcpy(to, &index[i], bytes); /* little-endian */
+	return view;
 }
 
-/* The least and the greatest of its values. */
-static void
-set_bounds(glb *w, size_t accessor, json_t *min, json_t *max)
+void
+mr_glb_set(glb *w, size_t accessor, const char *key, json_t *value)
 {
 	json_t *json = json_array_get(json_object_get(w->root, "accessors"), accessor);
 
-	w->failed |= json_object_set_new(json, "min", min) || json_object_set_new(json, "max", max);
+	w->failed |= json_object_set_new(json, key, value) != 0;
 }
 
-static mr_v3
-as_floats(mr_v3 a)
+void
+mr_glb_set_bounds(glb *w, size_t accessor, json_t *min, json_t *max)
 {
-	return mr_vec(mr_as_float(a.x), mr_as_float(a.y), mr_as_float(a.z));
+	mr_glb_set(w, accessor, "min", min);
+	mr_glb_set(w, accessor, "max", max);
 }
 
 /* ---- materials ---- */
@@ -250,16 +141,16 @@ image_type(const mr_file_bytes *b)
 static mr_status
 put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 {
-	size_t view = 0, image;
+	size_t view, image;
 	char *to = NULL;
 
 	MR_ENTER(w->ctx);
-	new_view(w, b->size, MR_UNKNOWN, &view, &to);
+	view = mr_glb_new_view(w, b->size, 1, MR_UNKNOWN, MR_VIEW_BYTES, &to);
 	memcpy(to, b->data, b->size);
-	image = push(w, "images",
+	image = mr_glb_push(w, "images",
 	    json_pack("{s:I, s:s, s:s}", "bufferView", number(view), "mimeType", image_type(b), "name",
 		mr_file_name(file)));
-	*texture = push(w, "textures", json_pack("{s:I}", "source", number(image)));
+	*texture = mr_glb_push(w, "textures", json_pack("{s:I}", "source", number(image)));
 	return MR_OK;
 }
 
@@ -322,14 +213,14 @@ put_materials(glb *w, layer *l)
 	size_t count = 0;
 
 	l->materials = MR_NEW(w->ctx, l->material.count, size_t);
-	MR_TRY(mr_materials_find(w->ctx, &l->node->model, w->scene->folder, &look, &count));
+	MR_TRY(mr_materials_find(w->ctx, &l->model, w->scene->folder, &look, &count));
 	for (size_t i = 0; i < l->material.count; i++) {
 		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture, normals;
 		if (bytes == 0) /* no face has it */
 			continue;
 		MR_TRY(embed(w, look[i].file, &texture));
 		MR_TRY(embed(w, look[i].normals, &normals));
-		l->materials[i] = push(
+		l->materials[i] = mr_glb_push(
 		    w, "materials", new_material(&look[i], name[i], bytes, texture, normals));
 	}
 	return MR_OK;
@@ -342,195 +233,9 @@ material_of(glb *w, const layer *l, size_t f)
 	if (l->material.of[f] < l->material.count)
 		return l->materials[l->material.of[f]];
 	if (w->unnamed == MR_UNKNOWN)
-		w->unnamed = push(
+		w->unnamed = mr_glb_push(
 		    w, "materials", new_material(&mr_material_plain, NULL, 0, MR_UNKNOWN, MR_UNKNOWN));
 	return w->unnamed;
-}
-
-/* ---- vertices ---- */
-
-/* Positions, or how far a pose moves them: the difference of floats, so that nothing is rounded twice. */
-static void
-put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const vertices *v, size_t *accessor)
-{
-	mr_box box = mr_box_empty();
-	char *to = NULL;
-
-	new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor);
-	for (size_t i = 0; i < v->count; i++) {
-		mr_v3 x = as_floats(p[v->vertex[i]]);
-		if (from)
-			x = as_floats(mr_sub(x, as_floats(from[v->vertex[i]])));
-		to = mr_store_floats(to, x);
-		mr_box_add(&box, x);
-	}
-	set_bounds(w, *accessor, json_pack("[f, f, f]", box.min.x, box.min.y, box.min.z),
-	    json_pack("[f, f, f]", box.max.x, box.max.y, box.max.z));
-}
-
-/* Whether it can be made unit. */
-static bool
-is_direction(mr_v3 n)
-{
-	return isfinite(mr_norm2(n)) && mr_norm2(n) > 0;
-}
-
-/* A normal that is a unit vector to the four digits of most files stays as it is; the format asks for three.
- */
-static mr_v3
-as_unit(mr_v3 n)
-{
-	mr_v3 f = as_floats(n);
-
-	return fabs(mr_norm2(f) - 1) < 5e-4 ? f : as_floats(mr_unit(n));
-}
-
-/* The normal of a vertex.  Without one it takes its triangle's; without a triangle, the z axis. */
-static mr_v3
-normal_of(const mr_model *m, const mr_target *pose, const vertices *v, size_t i)
-{
-	uint32_t c = v->corner[i];
-	mr_v3 n = mr_vec(0, 0, 0);
-
-	if (pose->corner_normal && c != MR_NONE)
-		n = pose->corner_normal[c];
-	else if (pose->normal)
-		n = pose->normal[v->vertex[i]];
-	if (!is_direction(n) && c != MR_NONE) {
-		const uint32_t *t = m->t[c / 3].v;
-		n = mr_cross(mr_sub(pose->p[t[1]], pose->p[t[0]]), mr_sub(pose->p[t[2]], pose->p[t[0]]));
-	}
-	return is_direction(n) ? as_unit(n) : mr_vec(0, 0, 1);
-}
-
-/* pose: NULL, or the one that turns them. */
-static void
-put_normals(glb *w, const mr_model *m, const mr_target *pose, const vertices *v, size_t *accessor)
-{
-	const mr_target rest = { m->p, m->normal, m->corner_normal };
-	char *to = NULL;
-
-	new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor);
-	for (size_t i = 0; i < v->count; i++) {
-		mr_v3 n = normal_of(m, &rest, v, i);
-		if (pose)
-			n = mr_sub(normal_of(m, pose, v, i), n);
-		to = mr_store_floats(to, n);
-	}
-}
-
-static bool
-has_texcoord(const double *uv)
-{
-	return uv && isfinite(mr_as_float(uv[0]) + mr_as_float(uv[1]));
-}
-
-/* v runs down the picture in glTF. */
-static void
-put_texcoords(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
-{
-	static const double none[2] = { 0, 1 };
-	char *to = NULL;
-
-	new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC2", &to, accessor);
-	for (size_t i = 0; i < v->count; i++) {
-		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : none;
-		if (m->corner_texcoord && v->corner[i] != MR_NONE)
-			uv = m->corner_texcoord + 2 * (size_t)v->corner[i];
-		w->large |= isfinite(uv[0] + uv[1]) && !has_texcoord(uv);
-		uv = has_texcoord(uv) ? uv : none;
-		to = mr_store_float(to, (float)uv[0]);
-		to = mr_store_float(to, (float)(1 - uv[1]));
-	}
-}
-
-/* Linear there, where sixteen bits give every byte back. */
-static void
-put_colors(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
-{
-	char *to = NULL;
-
-	new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_UNSIGNED_SHORT, "VEC4", &to, accessor);
-	for (size_t i = 0; i < 4 * v->count; i++) {
-		double c = m->color[4 * (size_t)v->vertex[i / 4] + i % 4] / 255.0;
-		unsigned x = (unsigned)(65535 * (i % 4 == 3 ? c : mr_srgb_to_linear(c)) + 0.5);
-		*to++ = (char)(x & 255);
-		*to++ = (char)(x >> 8);
-	}
-	w->failed |= json_object_set_new(json_array_get(json_object_get(w->root, "accessors"), *accessor),
-			 "normalized", json_true()) != 0;
-}
-
-/* Points have normals where all of them have some. */
-static bool
-has_normals(glb *w, const mr_model *m)
-{
-	size_t normals = 0;
-
-	if (m->nf)
-		return m->normal || m->corner_normal;
-	for (size_t i = 0; m->normal && i < m->nv; i++)
-		normals += is_direction(m->normal[i]);
-	mr_lost(w->ctx, NULL, normals < m->nv ? normals : 0, "normals beside points without");
-	return normals == m->nv;
-}
-
-static void
-put_vertices(glb *w, layer *l)
-{
-	const mr_model *m = &l->node->model;
-
-	l->normal = l->texcoord = l->color = MR_UNKNOWN;
-	put_positions(w, m->p, NULL, &l->v, &l->position);
-	if (has_normals(w, m))
-		put_normals(w, m, NULL, &l->v, &l->normal);
-	if (m->texcoord || m->corner_texcoord)
-		put_texcoords(w, m, &l->v, &l->texcoord);
-	if (m->color)
-		put_colors(w, m, &l->v, &l->color);
-}
-
-/* ---- poses ---- */
-
-/* Frame 0 is the key, at frame i target i - 1 alone weighs 1: when, and how much. */
-static void
-put_weights(glb *w, size_t targets, size_t *sampler)
-{
-	size_t frames = targets + 1, input = 0, output = 0;
-	char *to = NULL;
-
-	new_values(w, frames, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &input);
-	for (size_t i = 0; i < frames; i++)
-		to = mr_store_float(to, (float)((double)i / FRAMES_A_SECOND));
-	set_bounds(
-	    w, input, json_pack("[f]", 0.), json_pack("[f]", mr_as_float((double)targets / FRAMES_A_SECOND)));
-	new_values(w, frames * targets, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &output);
-	for (size_t i = 0; i < frames; i++)
-		for (size_t k = 0; k < targets; k++)
-			to = mr_store_float(to, i == k + 1 ? 1 : 0);
-	*sampler = append(
-	    w, w->samplers, json_pack("{s:I, s:I}", "input", number(input), "output", number(output)));
-}
-
-/* What the poses do to the vertices; to normals only where every pose has some. */
-static void
-put_poses(glb *w, layer *l)
-{
-	const mr_scene_node *node = l->node;
-	bool turned = l->normal != MR_UNKNOWN;
-	size_t position = 0, normal = MR_UNKNOWN;
-
-	for (size_t i = 0; i < node->targets; i++)
-		turned = turned && (node->target[i].normal || node->target[i].corner_normal);
-	for (size_t i = 0; i < node->targets; i++) {
-		put_positions(w, node->target[i].p, node->model.p, &l->v, &position);
-		if (turned)
-			put_normals(w, &node->model, &node->target[i], &l->v, &normal);
-		append(w, l->targets,
-		    json_pack("{s:I, s:o*}", "POSITION", number(position), "NORMAL", index_of(normal)));
-	}
-	if (node->targets)
-		put_weights(w, node->targets, &l->sampler);
 }
 
 /* ---- primitives, meshes, nodes ---- */
@@ -551,19 +256,28 @@ new_primitive(const layer *l, bool texcoords, size_t indices, size_t material, s
 static void
 put_primitive(glb *w, const layer *l, size_t first, size_t last, json_t *primitives)
 {
-	size_t accessor = 0;
+	size_t count = 3 * (last - first), view, accessor;
 	bool texcoords = false;
-	char *to = NULL;
 
-	new_values(
-	    w, 3 * (last - first), 4, MR_GLTF_ELEMENTS, MR_GLTF_UNSIGNED_INT, "SCALAR", &to, &accessor);
-	for (size_t i = first; i < last; i++)
-		for (size_t c = 3 * (size_t)l->face[i]; c < 3 * (size_t)l->face[i] + 3; c++) {
-			to = mr_store32(to, l->v.index[c]);
-			texcoords |= has_texcoord(mr_corner_texcoord(&l->node->model, c));
-		}
-	append(w, primitives,
+	for (size_t i = 3 * first; i < 3 * last; i++)
+		texcoords |= has_texcoord(mr_corner_texcoord(&l->model, 3 * (size_t)l->face[i / 3] + i % 3));
+	view = mr_glb_put_indices(w, l->order + 3 * first, count, l->v.count, MR_GLTF_ELEMENTS);
+	accessor = mr_glb_push(w, "accessors",
+	    json_pack("{s:I, s:I, s:I, s:s}", "bufferView", number(view), "componentType",
+		number(mr_index_kind(l->v.count)), "count", number(count), "type", "SCALAR"));
+	mr_glb_append(w, primitives,
 	    new_primitive(l, texcoords, accessor, material_of(w, l, l->face[first]), MR_UNKNOWN));
+}
+
+/* Where the grid of places lies. */
+static void
+place_node(glb *w, const layer *l, json_t *node)
+{
+	if (l->step > 0)
+		w->failed |= json_object_set_new(node, "translation",
+				 json_pack("[f, f, f]", l->origin.x, l->origin.y, l->origin.z)) ||
+		             json_object_set_new(
+				 node, "scale", json_pack("[f, f, f]", l->step, l->step, l->step));
 }
 
 /* A node and its mesh; takes the primitives. */
@@ -571,11 +285,15 @@ static void
 put_node(glb *w, const layer *l, const char *name, json_t *primitives)
 {
 	const char *own = *name ? name : NULL;
-	size_t mesh = push(w, "meshes", json_pack("{s:o, s:s*}", "primitives", primitives, "name", own));
-	size_t node = push(w, "nodes", json_pack("{s:I, s:s*}", "mesh", number(mesh), "name", own));
+	size_t mesh = mr_glb_push(
+	    w, "meshes", json_pack("{s:o, s:s*}", "primitives", primitives, "name", own));
+	json_t *json = json_pack("{s:I, s:s*}", "mesh", number(mesh), "name", own);
+	size_t node;
 
+	place_node(w, l, json);
+	node = mr_glb_push(w, "nodes", json);
 	if (l->node->targets)
-		append(w, w->channels,
+		mr_glb_append(w, w->channels,
 		    json_pack("{s:I, s:{s:I, s:s}}", "sampler", number(l->sampler), "target", "node",
 			number(node), "path", "weights"));
 }
@@ -606,9 +324,9 @@ put_object(glb *w, const layer *l, size_t *at)
 	uint32_t object = l->object.of[l->face[*at]];
 	json_t *primitives = json_array();
 
-	while (*at < l->node->model.nf && l->object.of[l->face[*at]] == object) {
+	while (*at < l->model.nf && l->object.of[l->face[*at]] == object) {
 		size_t end = *at + 1;
-		while (end < l->node->model.nf && is_alike(l, l->face[*at], l->face[end]))
+		while (end < l->model.nf && is_alike(l, l->face[*at], l->face[end]))
 			end++;
 		put_primitive(w, l, *at, end, primitives);
 		*at = end;
@@ -620,7 +338,7 @@ put_object(glb *w, const layer *l, size_t *at)
 static void
 order_faces(glb *w, layer *l)
 {
-	const mr_model *m = &l->node->model;
+	const mr_model *m = &l->model;
 
 	face_names_find(w->ctx, m->object, m->objects, m->nf, &l->object);
 	face_names_find(w->ctx, m->material, m->materials, m->nf, &l->material);
@@ -629,25 +347,28 @@ order_faces(glb *w, layer *l)
 		l->face[f] = (uint32_t)f;
 	sort_by(w->ctx, l->material.of, l->material.count, l->face, m->nf);
 	sort_by(w->ctx, l->object.of, l->object.count, l->face, m->nf);
+	l->order = MR_NEW(w->ctx, 3 * m->nf, uint32_t);
+	for (size_t i = 0; i < 3 * m->nf; i++)
+		l->order[i] = l->v.index[3 * (size_t)l->face[i / 3] + i % 3];
 }
 
 static mr_status
 put_layer(glb *w, layer *l)
 {
-	const mr_model *m = &l->node->model;
+	const mr_model *m = &l->model;
 	size_t at = 0;
 
 	if (m->nv == 0)
 		return mr_fail(w->ctx, MR_EMESH, "a layer without a vertex cannot be written as glb");
-	vertices_find(w->ctx, m, &l->v);
-	put_vertices(w, l);
-	put_poses(w, l);
+	mr_glb_find_vertices(w, l);
+	order_faces(w, l);
+	mr_glb_put_vertices(w, l);
+	mr_glb_put_poses(w, l);
 	if (m->nf == 0) {
 		put_node(
 		    w, l, l->name, json_pack("[o]", new_primitive(l, true, MR_UNKNOWN, MR_UNKNOWN, POINTS)));
 		return MR_OK;
 	}
-	order_faces(w, l);
 	MR_TRY(put_materials(w, l));
 	while (at < m->nf)
 		put_object(w, l, &at);
@@ -670,6 +391,18 @@ node_name(mr_ctx *ctx, const mr_scene *scene, const mr_scene_node *n)
 	    ctx, "%s%s%s", frames ? n->frame : "", frames && layers ? ": " : "", layers ? n->layer : "");
 }
 
+/* What a reader has to know beyond the format. */
+static void
+name_extensions(glb *w)
+{
+	const mr_gltf_opts *o = &w->scene->gltf;
+
+	if (o->quantize) {
+		mr_glb_push(w, "extensionsUsed", json_string("KHR_mesh_quantization"));
+		mr_glb_push(w, "extensionsRequired", json_string("KHR_mesh_quantization"));
+	}
+}
+
 /* All nodes stand beside each other in one scene. */
 static void
 end_root(glb *w)
@@ -678,11 +411,11 @@ end_root(glb *w)
 	json_t *list = json_array();
 
 	for (size_t i = 0; i < nodes; i++)
-		append(w, list, json_integer(number(i)));
-	push(w, "scenes", json_pack("{s:o}", "nodes", list));
-	push(w, "buffers", json_pack("{s:I}", "byteLength", number(w->bytes)));
+		mr_glb_append(w, list, json_integer(number(i)));
+	mr_glb_push(w, "scenes", json_pack("{s:o}", "nodes", list));
+	mr_glb_push(w, "buffers", json_pack("{s:I}", "byteLength", number(w->bytes)));
 	if (json_array_size(w->channels))
-		push(w, "animations",
+		mr_glb_push(w, "animations",
 		    json_pack("{s:O, s:O}", "samplers", w->samplers, "channels", w->channels));
 }
 
@@ -722,11 +455,13 @@ mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
 	w.channels = owned(&w, json_array());
 	for (size_t i = 0; i < scene->nodes; i++) {
 		layer l = { .node = &scene->node[i],
+			.model = scene->node[i].model,
 			.name = node_name(w.ctx, scene, &scene->node[i]),
 			.targets = owned(&w, json_array()) };
 		MR_TRY(put_layer(&w, &l));
 	}
 	end_root(&w);
+	name_extensions(&w);
 	w.failed |= json_dump_callback(w.root, add_text, &json, JSON_COMPACT) != 0;
 	if (w.large)
 		return mr_fail(w.ctx, MR_ERANGE, "texture coordinates are too large for float32");

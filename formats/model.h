@@ -42,12 +42,21 @@ typedef struct mr_scene_node {
 	size_t targets, target_room;
 } mr_scene_node;
 
+/* How a glTF is written. */
+typedef struct mr_gltf_opts {
+	bool no_normals;
+	bool quantize; /* places, texture coordinates and normals in few bits */
+	bool compress; /* by meshoptimizer */
+	bool lods;     /* frames after the first are levels of its detail */
+} mr_gltf_opts;
+
 /* Starts zeroed but for the folder. */
 typedef struct mr_scene {
 	mr_scene_node *node;
 	size_t nodes, room, takes;
 	size_t open;        /* the nodes from here on are those that a delta poses */
 	const char *folder; /* of files of materials */
+	mr_gltf_opts gltf;
 } mr_scene;
 
 /* Adds a frame.  layers: with commas between, or NULL: the one that mr_layer_result chooses.  keep: the arena

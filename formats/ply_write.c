@@ -1,11 +1,12 @@
-/* Stanford PLY, written: positions, normals and texture coordinates as doubles, so that nothing is rounded.
- */
+/* Stanford PLY, written: positions, normals and texture coordinates as doubles, so that nothing is rounded,
+ * unless floats are asked for. */
 #include "formats/format.h"
 
 typedef struct output {
 	mr_sink *s;
 	const mr_model *m;
 	bool text;
+	char real;     /* the type of a part of reals: d or f */
 	mr_part *part; /* of vertices, then of faces */
 	size_t vertex_parts, face_parts;
 	mr_polygons faces;
@@ -22,6 +23,7 @@ put_property_lines(const output *w, const mr_part *part, size_t parts)
 		     name += strcspn(name, " "), name += *name == ' ')
 			mr_print(w->s, "property %s %.*s\n",
 			    p->type == 'd'   ? "double"
+			    : p->type == 'f' ? "float"
 			    : p->type == 'u' ? "uint"
 					     : "uchar",
 			    (int)strcspn(name, " "), name);
@@ -39,7 +41,8 @@ put_header(const output *w)
 		mr_print(
 		    w->s, "element face %zu\nproperty list %s int vertex_indices\n", w->faces.count, counted);
 		if (w->m->corner_texcoord)
-			mr_print(w->s, "property list %s double texcoord\n", counted);
+			mr_print(w->s, "property list %s %s texcoord\n", counted,
+			    w->real == 'f' ? "float" : "double");
 		put_property_lines(w, w->part + w->vertex_parts, w->face_parts);
 	}
 	mr_print(w->s, "end_header\n");
@@ -62,7 +65,7 @@ put_face(mr_sink *s, const void *arg, size_t face)
 {
 	const output *w = arg;
 	size_t first = mr_polygon_begin(&w->faces, face), end = mr_polygon_begin(&w->faces, face + 1);
-	const mr_part corner = { w->m->t, 'u', 1, 1, "" }, uv = { w->m->corner_texcoord, 'd', 2, 2, "" };
+	const mr_part corner = { w->m->t, 'u', 1, 1, "" }, uv = { w->m->corner_texcoord, w->real, 2, 2, "" };
 
 	put_length(s, w, end - first);
 	for (size_t i = first; i < end; i++)
@@ -78,9 +81,9 @@ put_face(mr_sink *s, const void *arg, size_t face)
 }
 
 static void
-put(mr_sink *s, const mr_model *m, bool text)
+put(mr_sink *s, const mr_model *m, bool text, char real)
 {
-	output w = { .s = s, .m = m, .text = text };
+	output w = { .s = s, .m = m, .text = text, .real = real };
 
 	mr_note_lost(s, m, "normal scanner color alpha texcoord corner_texcoord property faces");
 	w.part = MR_NEW(s->ctx, MR_PARTS + m->properties, mr_part);
@@ -89,6 +92,9 @@ put(mr_sink *s, const mr_model *m, bool text)
 		w.part[MR_PARTS + i] = mr_property_part(&m->property[i]);
 		w.face_parts += m->property[i].shape.element == 'f';
 	}
+	for (size_t i = 0; i < MR_PARTS + m->properties; i++)
+		if (w.part[i].type == 'd')
+			w.part[i].type = real;
 	w.vertex_parts = MR_PARTS + m->properties - w.face_parts;
 	mr_faces_of(s, m, &w.faces);
 	w.bytes = w.faces.most * 2 <= UINT8_MAX;
@@ -100,13 +106,21 @@ put(mr_sink *s, const mr_model *m, bool text)
 mr_status
 mr_ply_write(mr_sink *s, const mr_model *m)
 {
-	put(s, m, false);
+	put(s, m, false, 'd');
+	return MR_OK;
+}
+
+mr_status
+mr_ply_write_float(mr_sink *s, const mr_model *m)
+{
+	MR_TRY(mr_note_rounded(s, m));
+	put(s, m, false, 'f');
 	return MR_OK;
 }
 
 mr_status
 mr_ply_write_ascii(mr_sink *s, const mr_model *m)
 {
-	put(s, m, true);
+	put(s, m, true, 'd');
 	return MR_OK;
 }

@@ -232,6 +232,8 @@ mr_property_part(const mr_property *p)
 static char *
 put_number(char *to, const mr_part *p, size_t at, bool text)
 {
+	if (p->type == 'f')
+		return mr_store_float(to, (float)((const double *)p->data)[at]);
 	if (p->type == 'd' && text)
 		to = mr_real_write(to, ((const double *)p->data)[at]);
 	else if (p->type == 'd')

@@ -74,7 +74,7 @@ void mr_rows_end(mr_rows *r);
 /* Columns of what is written, side by side in memory. */
 typedef struct mr_part {
 	const void *data; /* NULL: not there */
-	char type;        /* of mr_shape: d, u or b */
+	char type;        /* of mr_shape: d, u or b; or f: doubles, written as floats, not as text */
 	size_t width, stride;
 	const char *names; /* of the columns, a blank between */
 } mr_part;

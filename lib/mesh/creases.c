@@ -35,18 +35,24 @@ mr_creases_find(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *around, mr_cr
 }
 
 mr_v3
+mr_corner_normal_posed(const mr_creases *c, const mr_v3 *p, size_t face, int corner)
+{
+	const mr_mesh posed = { .p = p, .t = c->m->t };
+	uint32_t v = c->m->t[face].v[corner];
+	mr_v3 own = mr_unit(mr_face_cross(c->m, face)), sum = mr_vec(0, 0, 0);
+
+	for (size_t k = c->around->start[v]; k < c->around->start[v + 1]; k++) {
+		mr_v3 n = mr_face_cross(c->m, c->around->face[k]);
+		if (!c->creased[v] || mr_dot(n, own) >= CREASE * mr_norm(n))
+			sum = mr_add(sum, mr_face_cross(&posed, c->around->face[k]));
+	}
+	return sum;
+}
+
+mr_v3
 mr_corner_normal(const mr_creases *c, size_t face, int corner)
 {
 	uint32_t v = c->m->t[face].v[corner];
-	mr_v3 own, sum = mr_vec(0, 0, 0);
 
-	if (!c->creased[v])
-		return c->normal[v];
-	own = mr_unit(mr_face_cross(c->m, face));
-	for (size_t k = c->around->start[v]; k < c->around->start[v + 1]; k++) {
-		mr_v3 n = mr_face_cross(c->m, c->around->face[k]);
-		if (mr_dot(n, own) >= CREASE * mr_norm(n))
-			sum = mr_add(sum, n);
-	}
-	return mr_unit(sum);
+	return c->creased[v] ? mr_unit(mr_corner_normal_posed(c, c->m->p, face, corner)) : c->normal[v];
 }

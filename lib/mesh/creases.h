@@ -17,4 +17,7 @@ void mr_creases_find(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *around, 
 /* The normal of a face's corner. */
 mr_v3 mr_corner_normal(const mr_creases *c, size_t face, int corner);
 
+/* The normal of the same faces in another pose, p; not unit. */
+mr_v3 mr_corner_normal_posed(const mr_creases *c, const mr_v3 *p, size_t face, int corner);
+
 #endif

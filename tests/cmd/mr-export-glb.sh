@@ -68,7 +68,7 @@ echo '-- poses are morph targets of one node, another key frame is a node of its
 mr-select --free all --handle 0=above:z,0.2 torus.mrs | mr-smooth | mr-solve --basis | mr-encode |
     mr-pose --frames 3 --translate 0,0,1 | mr-decode -o poses.mrs
 mr-export -i poses.mrs poses.glb
-has poses.glb '"path":"weights"' '"targets":\[{"POSITION":[0-9]*},{"POSITION":[0-9]*},{"POSITION":[0-9]*}\]' '"max":\[0.125\]'
+has poses.glb '"path":"weights"' '"targets":\[\({"POSITION":[0-9]*,"NORMAL":[0-9]*},*\)\{3\}\]' '"max":\[0.125\]'
 mr-import poses.glb | mr-info | grep vertices
 mr-make cube -n 50 | mr-cat poses.mrs - | mr-export both.glb
 has both.glb '"nodes":\[0,1\]' '"name":"torus"' '"name":"cube"'
@@ -76,6 +76,35 @@ mr-export -i poses.mrs 'pose-%d.glb'
 ls pose-*
 mr-export -i poses.mrs -f glb - | cmp - poses.glb && echo 'same on stdout'
 mr-export -i poses.mrs poses.glb.gz && gunzip <poses.glb.gz | cmp - poses.glb && echo 'same in gzip'
+
+echo '-- normals by default, split at creases; none where none are wanted'
+mr-make cube -n 12 -o cube.mrs
+mr-export -i cube.mrs cube.glb && has cube.glb '"count":24' '"NORMAL":1'
+mr-export -i cube.mrs --no-normals cube.glb && has cube.glb '"count":8' && json cube.glb | grep -c NORMAL
+mr-import box.obj | mr-export -q --no-normals flat.glb && json flat.glb | grep -c NORMAL
+mr-make sphere -n 300 | mr-export sphere.glb && mr-import sphere.glb | mr-info | grep 'normal '
+
+echo '-- few bits'
+mr-make sphere -n 300 --texcoords -o sphere.mrs
+mr-export -i sphere.mrs --quantize few.glb
+has few.glb '"KHR_mesh_quantization"' '"componentType":5123,"count":[0-9]*,"type":"VEC3"' \
+    '"componentType":5120,"normalized":true,"count":[0-9]*,"type":"VEC3"' \
+    '"componentType":5126,"count":[0-9]*,"type":"VEC2"' '"scale"'
+mr-export -q -i box.mrs --quantize few-box.glb
+has few-box.glb '"componentType":5123,"normalized":true,"count":[0-9]*,"type":"VEC2"'
+mr-import few-box.glb | mr-export -f obj - | grep '^vt'
+mr-import few.glb | mr-compare --json sphere.mrs | grep -o '"both_relative":{"hausdorff":[0-9.]*e-0[5-9]' | tr -d 0-9.
+mr-make torus -n 300 | mr-transform --translate 1e6,0,0 | mr-export -q --quantize far.glb
+mr-import -q far.glb | mr-transform --translate -1e6,0,0 | mr-info | grep box
+printf '0 0 0\n' | mr-import -f xyz | mr-export --quantize one.glb && mr-import one.glb | mr-export -f xyz -
+mr-export -i poses.mrs --quantize moved.glb
+has moved.glb '"componentType":5122' && mr-import -q moved.glb | mr-compare -q --json torus.mrs | grep -o '"both_relative":{"hausdorff":[0-9.]*e-0[5-9]' | tr -d 0-9.
+
+echo '-- poses that move little take few bytes'
+mr-make sphere -n 3000 | mr-select --free all --fixed below:z,0.9 --handle 0=above:z,0.97 | mr-smooth | mr-solve --basis | mr-encode |
+    mr-pose --frames 3 --translate 0,0,0.3 | mr-decode -o tip.mrs
+mr-export -q -i tip.mrs tip.glb
+has tip.glb '"sparse":{"count":[0-9]*,"indices":{"bufferView":[0-9]*,"componentType":5123},"values":{"bufferView":[0-9]*}}'
 
 echo '-- a base has what its mesh came with, as in any format'
 mr-make sphere -n 300 --texcoords | mr-smooth | mr-export base.glb
@@ -111,7 +140,7 @@ mr-import white.obj | python3 delta.py color >colors.mrs
 mr-export -i colors.mrs colors.glb && mr-import colors.glb | mr-export -q -f obj - | grep -c -e '1 0 0$' -e '1 1 1$'
 
 echo '-- nor has a file normals of poses alone'
-mr-import white.obj | python3 delta.py normal | mr-export normals.glb
+mr-import white.obj | python3 delta.py normal | mr-export --no-normals normals.glb
 mr-import normals.glb | mr-info | grep -c 'normal '
 
 echo '-- nor does it move on to a frame with other triangles'

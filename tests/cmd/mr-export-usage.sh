@@ -13,7 +13,10 @@ export_cube a.las
 export_cube -
 export_cube 'a%x.obj'
 export_cube -o a.obj -f obj -
-ls a.obj 2>/dev/null
+export_cube --float a.obj
+export_cube --no-normals a.obj
+export_cube --quantize a.ply
+ls a.* 2>/dev/null
 mr-cat cube.mrs cube.mrs | mr-export two.obj
 echo "exit $?" >&2
 mr-cat cube.mrs cube.mrs | mr-export 'name-%s.obj'

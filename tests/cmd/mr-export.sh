@@ -82,3 +82,8 @@ for out in one.obj %d.obj %d.glb; do
 	mr-export -i none.mrs "$out"
 	echo "exit $?"
 done
+
+echo '-- floats'
+mr-make torus -n 50 --texcoords | mr-export --float small.ply
+head -n 9 small.ply | grep -a property
+mr-make torus -n 50 --texcoords | mr-export -f ply-float - | cmp - small.ply && mr-import small.ply | mr-info | grep -E 'vertices|texcoord'

@@ -140,10 +140,11 @@ size = struct.unpack('<I', data[12:16])[0]
 doc, blob = json.loads(data[20:20 + size]), data[28 + size:]
 
 
-def values(accessor, width, kind='f'):
+def values(accessor, width):
     a = doc['accessors'][accessor]
     start = doc['bufferViews'][a['bufferView']]['byteOffset']
-    flat = struct.unpack('<%d%s' % (a['count'] * width, kind), blob[start:start + 4 * a['count'] * width])
+    kind = {5123: 'H', 5125: 'I', 5126: 'f'}[a['componentType']]
+    flat = struct.unpack_from('<%d%s' % (a['count'] * width, kind), blob, start)
     return [flat[i:i + width] for i in range(0, len(flat), width)]
 
 
@@ -159,7 +160,7 @@ def tangent(corners, normal):
 
 part = doc['meshes'][0]['primitives'][0]
 n, uv = values(part['attributes']['NORMAL'], 3), values(part['attributes']['TEXCOORD_0'], 2)
-index, place = values(part['indices'], 1, 'I'), values(part['attributes']['POSITION'], 3)
+index, place = values(part['indices'], 1), values(part['attributes']['POSITION'], 3)
 level = int(text['Height level'])
 true = vertex_normals(truth, decoded)
 most = used = 0
