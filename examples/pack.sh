@@ -32,9 +32,11 @@ control --stats "$work/control" | mr-fit -q -o "$work/fit.mrs"
 faces=$(figure "$work/control" faces)
 level=0 best=
 attempt() { # faces, options of mr-sample: is kept where it is the best so far
-	mr-sample -q --stats "$work/sample" "$2" "$3" "$work/fit.mrs" | mr-pack -q -e "$error" --stats "$work/pack" - "$work/try.mrz"
+	mr-sample -q --stats "$work/sample" "$2" "$3" "$work/fit.mrs" |
+	    mr-pack -q -e "$error" --stats "$work/pack" - "$work/try.mrz"
 	now="$(figure "$work/pack" error) $(figure "$work/pack" bytes)"
-	echo "$1 faces, level $(figure "$work/sample" level): $now" | awk '{ printf "%s %s %s %s %.4f %% %d bytes\n", $1, $2, $3, $4, 100 * $5, $6 }'
+	echo "$1 $(figure "$work/sample" level) $now" |
+	    awk '{ printf "%s faces, level %s: %.4f %%, %d bytes\n", $1, $2, 100 * $3, $4 }'
 	if echo "$now ${best:-1 0} $want" | awk '{ limit = 1.01 * $5; a = $1 <= limit; b = $3 <= limit
 	    exit !(a && b ? $2 < $4 : a || b ? a : $1 < $3) }'; then
 		best=$now level=$(figure "$work/sample" level)
