@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "simplify/bucket_queue.h"
 #include "simplify/edge_collapse.h"
+#include "simplify/sectors.h"
 #include "simplify/sharp_edges.h"
 
 /* The shape that needles may have where the faces asked for cannot be had otherwise: thin plates, say. */
@@ -632,6 +633,10 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, const m
 				      "%s: %zu faces are left, not %zu: merging more would change the "
 				      "topology or fold it",
 				      m->name, out->nf, s.target) });
+	if (s.ties->sharp && *s.ties->sharp && !s.ties->face) /* of a control mesh */
+		MR_TRY(mr_fill_sectors(ctx, out, s.ties->sharp));
+	r.vertices = out->nv;
+	r.faces = out->nf;
 	if (result)
 		*result = r;
 	return MR_OK;

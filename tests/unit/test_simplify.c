@@ -6,6 +6,8 @@
 #include "simplify/creases.h"
 #include "simplify/simplify.h"
 #include "space/bvh.h"
+#include "space/self_intersect.h"
+#include "subdivide/loop.h"
 #include "unit.h"
 
 static void
@@ -109,7 +111,8 @@ sharp_length(mr_solid solid, size_t vertices, size_t faces)
 	assert_int_equal(mr_solid_make(&ctx, &shape, &m), MR_OK);
 	o.faces = faces;
 	onto = MR_NEW(&ctx, m.nv, uint32_t);
-	assert_int_equal(mr_simplify(&ctx, &m, &o, &(mr_simplify_ties){ .sharp = &sharp }, &out, onto, NULL), MR_OK);
+	assert_int_equal(
+	    mr_simplify(&ctx, &m, &o, &(mr_simplify_ties){ .sharp = &sharp }, &out, onto, NULL), MR_OK);
 	for (uint32_t h = 0; sharp && h < 3 * out.nf; h++)
 		if (sharp[h])
 			length += mr_dist(out.p[mr_he_from(&out, h)], out.p[mr_he_to(&out, h)]) / 2;
@@ -128,6 +131,51 @@ sharp_edges_of_a_mesh_are_kept(void **state)
 		assert_true(fabs(rims - 4 * MR_PI) < 0.2 * MR_PI);
 		assert_true(sharp_length(MR_SPHERE, 6000, faces[i]) == 0);
 	}
+}
+
+/* An angle bracket: where its corners have few faces around three quarters of a turn, the limit surface turns
+ * over. */
+static void
+limit_surfaces_do_not_turn_over(void **state)
+{
+	static const mr_v3 outline[] = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 1, 1, 0 }, { 1, 2, 0 },
+		{ 0, 2, 0 } };
+	static const mr_tri lid[] = { { { 0, 1, 2 } }, { { 0, 2, 3 } }, { { 0, 3, 5 } }, { { 3, 4, 5 } } };
+	enum { N = 6, LID = 4, LEVEL = 3 };
+	mr_v3 p[2 * N], *fine, *limit;
+	mr_tri t[2 * (N + LID)];
+	mr_mesh m = { "mesh", p, t, 2 * N, 2 * (N + LID) }, out;
+	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
+	uint8_t *sharp = NULL;
+	uint32_t onto[2 * N];
+	mr_loop level[LEVEL + 1];
+	size_t crossings;
+
+	(void)state;
+	for (uint32_t i = 0; i < N; i++) {
+		uint32_t next = (i + 1) % N;
+		p[i] = outline[i];
+		p[N + i] = mr_add(outline[i], mr_vec(0, 0, 1));
+		t[2 * i] = (mr_tri){ { i, next, N + next } };
+		t[2 * i + 1] = (mr_tri){ { i, N + next, N + i } };
+	}
+	for (uint32_t i = 0; i < LID; i++) {
+		const uint32_t *v = lid[i].v;
+		t[2 * N + i] = (mr_tri){ { v[0], v[2], v[1] } };
+		t[2 * N + LID + i] = (mr_tri){ { N + v[0], N + v[1], N + v[2] } };
+	}
+	o.faces = m.nf;
+	assert_int_equal(
+	    mr_simplify(&ctx, &m, &o, &(mr_simplify_ties){ .sharp = &sharp }, &out, onto, NULL), MR_OK);
+	assert_int_equal(out.nf, m.nf + 4);
+	assert_int_equal(mr_loop_levels(&ctx, &out, 180, sharp, LEVEL, level), MR_OK);
+	fine = MR_NEW(&ctx, level[LEVEL].nv, mr_v3);
+	limit = MR_NEW(&ctx, level[LEVEL].nv, mr_v3);
+	mr_loop_values(&ctx, level, LEVEL, 3, &out.p->x, &fine->x);
+	mr_loop_limit(&ctx, &level[LEVEL], fine, limit, NULL);
+	mr_self_intersections(&ctx, NULL,
+	    &(mr_mesh){ "limit", limit, level[LEVEL].t, level[LEVEL].nv, level[LEVEL].nf }, NULL, &crossings);
+	assert_int_equal(crossings, 0);
 }
 
 /* Simplifies the solid, its height scaled and a bowl added, to `faces` and maps it. */
@@ -200,6 +248,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(quadric_is_the_squared_distance, setup, teardown),
 		cmocka_unit_test_setup_teardown(vertices_lie_where_they_were_merged, setup, teardown),
 		cmocka_unit_test_setup_teardown(sharp_edges_of_a_mesh_are_kept, setup, teardown),
+		cmocka_unit_test_setup_teardown(limit_surfaces_do_not_turn_over, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_are_the_nearest, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_stay_on_their_side, setup, teardown),
 	};
