@@ -686,7 +686,9 @@ typedef struct mr_unpack_opts {
 
 #define MR_UNPACK_DEFAULTS MR_DEFAULTS(0, MR_UNKNOWN)
 
-typedef struct mr_unpack_result { size_t bytes, level, vertices; } mr_unpack_result;
+typedef struct mr_unpack_result {
+	size_t bytes, level, finest, vertices; /* finest: level that the file has */
+} mr_unpack_result;
 
 /* A key frame of control and displacement; of the first bytes alone, if they hold the control mesh, it is coarser. */
 MR_API mr_status mr_unpack_frame(mr_ctx *ctx, const void *byte, size_t size, const mr_unpack_opts *opts,

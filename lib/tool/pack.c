@@ -53,7 +53,6 @@ static mr_status
 get_surface(mr_ctx *ctx, mr_frame *f, packing *k)
 {
 	const void *color = NULL;
-	size_t rows;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &k->control));
 	MR_TRY(mr_displacement_get(ctx, f, &k->control, &k->p.n, &k->height));
@@ -62,8 +61,7 @@ get_surface(mr_ctx *ctx, mr_frame *f, packing *k)
 	MR_TRY(mr_loop_levels(ctx, &k->control, 180, k->crease, k->p.n, k->level));
 	mr_domain_on(ctx, &k->control, k->level, k->p.n, &k->domain);
 	if (mr_layer_has(f, "displacement", "color"))
-		MR_TRY(
-		    mr_frame_get(ctx, f, "displacement", "color", (mr_shape){ 'v', 'b', 4 }, &color, &rows));
+		MR_TRY(mr_layer_get_rows(ctx, f, "displacement", "color", k->domain.m.nv, &color));
 	k->color = color;
 	return get_target(ctx, f, k);
 }
@@ -96,7 +94,7 @@ put_on_grid(mr_ctx *ctx, packing *k, mr_grid_mesh *g)
 		(mr_tri *)k->control.t, (uint8_t *)k->crease };
 	for (int i = 0; i < 3; i++) {
 		double at = floor(ldexp(lo[i], -k->p.step));
-		if (!(fabs(at) < 0x1p52) || k->diagonal > ldexp(MR_GRID_MOST, k->p.step))
+		if (!(fabs(at) < 0x1p52) || mr_box_diagonal(box) > ldexp(MR_GRID_MOST, k->p.step))
 			return mr_fail(ctx, MR_ERANGE, "control: too large for that error");
 		k->p.origin[i] = (int64_t)at;
 	}
@@ -424,7 +422,7 @@ unpack(mr_ctx *ctx, mr_packed_bytes file, const mr_unpack_opts *o, mr_frame **fr
 	MR_TRY(put_displacement(ctx, p, f, &d));
 	if (file.size == size)
 		mr_lost(ctx, "displacement", missing, "bytes at the end of the file");
-	*r = (mr_unpack_result){ file.size, d.n, d.m.nv };
+	*r = (mr_unpack_result){ file.size, d.n, p->n, d.m.nv };
 	*frame = f;
 	return MR_OK;
 }

@@ -11,5 +11,6 @@ for f in cut asked; do mr-cat --no-history $f.mrs 2>/dev/null | mr-decode -q | m
 
 echo 'levels'
 for j in 0 2 4; do mr-unpack --level $j a.mrz | mr-decode -q | mr-info | grep 'mesh: '; done
+mr-unpack --each --level 3 a.mrz | mr-decode -q | mr-info | grep "mesh: "
 mr-unpack --level 5 a.mrz >out
 echo "exit $?, $(wc -c <out) bytes"
