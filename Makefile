@@ -48,8 +48,10 @@ PLACE    := -fdebug-prefix-map=$(CURDIR)=.
 ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -fno-trapping-math -ffp-contract=off -pthread $(SHARED) \
 		$(PLACE) $(CFLAGS) $(HARDEN)
 ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -ffp-contract=off -pthread $(SHARED) $(PLACE) $(CFLAGS) $(HARDEN)
-LIBS     := -Wl,--as-needed -lcamd -lcholmod -lumfpack -llz4 -ltinyobjloader_double -lpng -ljpeg -ljansson -ldeflate \
-		-lz -lstdc++ -ldl -lm
+# Draco, where it is there when this is built.
+DRACO    := $(shell echo '\#include <draco/draco_features.h>' | $(CXX) -E -xc++ - >/dev/null 2>&1 && echo -ldraco)
+LIBS     := -Wl,--as-needed -lcamd -lcholmod -lumfpack -llz4 -ltinyobjloader_double -lmeshoptimizer $(DRACO) \
+		-lpng -ljpeg -ljansson -ldeflate -lz -lstdc++ -ldl -lm
 
 # What knows MPI: `make mpi`.
 MPICC   := mpicc

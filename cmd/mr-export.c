@@ -16,7 +16,11 @@ static const cmd_opt table[] = {
 	    "write this format (default: by the suffix of OUT)", NULL },
 	{ 0, "materials", CMD_TEXT, &scene.folder, 0, 0, "DIR",
 	    "folder of the files of materials, whose pictures a glb holds", NULL },
+	{ 0, "compress", CMD_FLAG, &scene.gltf.compress, 0, 0, NULL, "a glb is packed by meshoptimizer",
+	    NULL },
 	{ 0, "float", CMD_FLAG, &floats, 0, 0, NULL, "a ply has floats in place of doubles", NULL },
+	{ 0, "lods", CMD_FLAG, &scene.gltf.lods, 0, 0, NULL,
+	    "a glb has the frames after the first as levels of its detail", NULL },
 	{ 0, "no-normals", CMD_FLAG, &scene.gltf.no_normals, 0, 0, NULL, "a glb has no normals", NULL },
 	{ 0, "quantize", CMD_FLAG, &scene.gltf.quantize, 0, 0, NULL,
 	    "a glb has positions and texture coordinates of 16 bits, normals of 8", NULL },
@@ -47,8 +51,9 @@ check(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s: a model under the name of a file of materials", out);
 	MR_TRY(cmd_idle(
 	    c, "materials", !mr_scene_suits(out, format), "on this format, which holds no pictures"));
-	MR_TRY(
-	    cmd_idle(c, "no-normals quantize", !mr_scene_suits(out, format), "on this format, but on glb"));
+	MR_TRY(cmd_idle(c, "compress lods no-normals quantize", !mr_scene_suits(out, format),
+	    "on this format, but on glb"));
+	MR_TRY(cmd_idle(c, "lods", mr_outname_varies(out), "where each frame has a file of its own"));
 	MR_TRY(cmd_idle(c, "float", !is_ply(out), "on this format, but on ply"));
 	if (floats)
 		format = "ply-float";

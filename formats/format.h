@@ -35,9 +35,10 @@ void mr_skip_mark(const unsigned char **data, size_t *size);
 mr_sniff mr_obj_sniff, mr_stl_is_binary, mr_stl_sniff, mr_off_sniff, mr_xyz_sniff, mr_ptx_sniff;
 mr_read_model mr_gltf_read, mr_las_read, mr_obj_read, mr_off_read, mr_pcd_read, mr_ply_read, mr_ptx_read,
     mr_stl_read, mr_xyz_read;
-mr_write_model mr_glb_write, mr_obj_write, mr_off_write, mr_ply_write, mr_ply_write_ascii, mr_ply_write_float,
-    mr_pts_write, mr_pwn_write, mr_stl_write, mr_stl_write_ascii, mr_xyz_write;
+mr_write_model mr_glb_write, mr_gltf_write, mr_obj_write, mr_off_write, mr_ply_write, mr_ply_write_ascii,
+    mr_ply_write_float, mr_pts_write, mr_pwn_write, mr_stl_write, mr_stl_write_ascii, mr_xyz_write;
 mr_status mr_glb_write_scene(mr_sink *s, const mr_scene *scene);
+mr_status mr_gltf_write_scene(mr_sink *s, const mr_scene *scene);
 
 /* Reports what a GLB does not keep of the model. */
 mr_status mr_glb_note_lost(mr_sink *s, const mr_model *m);

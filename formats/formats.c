@@ -11,7 +11,7 @@
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
 static const mr_file_format formats[] = {
 	{ "glb", true, "glTF", NULL, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
-	{ "gltf", false, "{", NULL, mr_gltf_read, NULL, NULL },
+	{ "gltf", false, "{", NULL, mr_gltf_read, mr_gltf_write, mr_gltf_write_scene },
 	{ "ply", true, "ply\n|ply\r|ply ", NULL, mr_ply_read, mr_ply_write, NULL },
 	{ "ply-ascii", false, NULL, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
 	{ "ply-float", true, NULL, NULL, mr_ply_read, mr_ply_write_float, NULL },
@@ -87,6 +87,9 @@ find_writer(mr_ctx *ctx, const char *path, const char *format, const mr_file_for
 	if (!found->write)
 		return mr_fail(
 		    ctx, MR_EUSAGE, "%s is only read, not written; there are %s", found->name, names);
+	if (!strcmp(path, "-") && !strcmp(found->name, "gltf"))
+		return mr_fail(
+		    ctx, MR_EUSAGE, "gltf is several files, of which stdout holds none: -f glb is one");
 	*f = found;
 	return MR_OK;
 }

@@ -2,6 +2,7 @@
 #include "formats/gltf.h"
 
 #include "base/memory.h"
+#include "formats/gltf_meshopt.h"
 #include "formats/materials.h"
 
 /* ---- chunks and JSON ---- */
@@ -74,17 +75,17 @@ needs(const mr_gltf *g, const char *extension)
 	    g->ctx, MR_EFORMAT, "the file needs the extension %.60s, which is not read", extension);
 }
 
-/* What changes no place of a vertex may be required. */
+/* What changes no place of a vertex, or is read, may be required. */
 static mr_status
 check_extensions(const mr_gltf *g)
 {
-	static const char *const harmless[] = { "KHR_mesh_quantization", "KHR_materials_", "KHR_texture_",
-		"EXT_texture_", "KHR_lights_", NULL };
+	static const char *const known[] = { "KHR_mesh_quantization", "KHR_materials_", "KHR_texture_",
+		"EXT_texture_", "KHR_lights_", MR_MESHOPT, MR_DRACO, NULL };
 	json_t *list = json_object_get(g->root, "extensionsRequired");
 
 	for (size_t i = 0; i < json_array_size(list); i++) {
 		const char *name = json_string_value(json_array_get(list, i));
-		const char *const *h = harmless;
+		const char *const *h = known;
 		while (name && *h && strncmp(name, *h, strlen(*h)))
 			h++;
 		if (!name || !*h)
@@ -119,6 +120,8 @@ mr_gltf_open(mr_ctx *ctx, const char *path, const unsigned char *data, size_t si
 	MR_TRY(check_version(g));
 	MR_TRY(check_extensions(g));
 	g->buffer = MR_NEW_ZERO(ctx, mr_gltf_size(g, "buffers"), mr_gltf_buffer);
+	g->view = MR_NEW_ZERO(ctx, mr_gltf_size(g, "bufferViews"), mr_gltf_buffer);
+	g->made = MR_NEW_ZERO(ctx, mr_gltf_size(g, "accessors"), mr_accessor);
 	return MR_OK;
 }
 
@@ -303,18 +306,16 @@ open_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 	return MR_OK;
 }
 
-/* The bytes of a buffer view; stride: 0 where it has none. */
+/* The bytes of view `number`, or of what packs it: of an object that names them. */
 static mr_status
-open_view(mr_gltf *g, size_t number, mr_gltf_buffer *b, size_t *stride)
+open_range(mr_gltf *g, size_t number, const json_t *object, mr_gltf_buffer *b)
 {
-	const json_t *view = mr_gltf_at(g, "bufferViews", number);
 	mr_gltf_buffer of = { 0 };
 	size_t buffer = 0, begin = 0, bytes = 0;
 
-	MR_TRY(mr_gltf_index(g, view, "buffer", "buffers", &buffer));
-	MR_TRY(mr_gltf_count(g, view, "byteOffset", 0, MR_UNKNOWN - 1, &begin));
-	MR_TRY(mr_gltf_count(g, view, "byteLength", 0, MR_UNKNOWN - 1, &bytes));
-	MR_TRY(mr_gltf_count(g, view, "byteStride", 0, 65535, stride));
+	MR_TRY(mr_gltf_index(g, object, "buffer", "buffers", &buffer));
+	MR_TRY(mr_gltf_count(g, object, "byteOffset", 0, MR_UNKNOWN - 1, &begin));
+	MR_TRY(mr_gltf_count(g, object, "byteLength", 0, MR_UNKNOWN - 1, &bytes));
 	if (buffer == MR_UNKNOWN)
 		return mr_fail(g->ctx, MR_EFORMAT, "buffer view %zu names no buffer", number);
 	MR_TRY(open_buffer(g, buffer, &of));
@@ -323,6 +324,63 @@ open_view(mr_gltf *g, size_t number, mr_gltf_buffer *b, size_t *stride)
 		    number, of.bytes);
 	*b = (mr_gltf_buffer){ of.data + begin, bytes };
 	return MR_OK;
+}
+
+/* The bytes of a view that meshoptimizer has packed. */
+static mr_status
+unpack_view(mr_gltf *g, size_t number, const json_t *json, const json_t *view, mr_gltf_buffer *b)
+{
+	static const char *const modes[] = { "ATTRIBUTES", "TRIANGLES", "INDICES" };
+	const char *mode = json_string_value(json_object_get(json, "mode"));
+	mr_meshopt_rows rows = { 0 };
+	mr_gltf_buffer packed = { 0 };
+	unsigned char *data = NULL;
+	size_t whole = 0, k = 0;
+
+	MR_TRY(mr_gltf_count(g, view, "byteLength", 0, MR_UNKNOWN - 1, &whole));
+	MR_TRY(mr_gltf_count(g, json, "count", 0, MR_NONE - 1, &rows.count));
+	MR_TRY(mr_gltf_count(g, json, "byteStride", 0, 256, &rows.stride));
+	while (k < 3 && (!mode || strcmp(modes[k], mode)))
+		k++;
+	rows.mode = k < 3 ? (mr_meshopt_mode)k : MR_MESHOPT_ATTRIBUTES;
+	if (k == 3 || !mr_meshopt_suits(&rows) || rows.count * rows.stride != whole)
+		return mr_fail(g->ctx, MR_EFORMAT,
+		    MR_MESHOPT " of %zu rows of %zu bytes, %.20s, for %zu bytes", rows.count, rows.stride,
+		    mode ? mode : "of no mode", whole);
+	MR_TRY(open_range(g, number, json, &packed));
+	MR_TRY(mr_prefix(g->ctx,
+	    mr_meshopt_unpack(g->ctx, &rows, json_string_value(json_object_get(json, "filter")), packed.data,
+		packed.bytes, &data),
+	    MR_MESHOPT));
+	*b = (mr_gltf_buffer){ data, whole };
+	return MR_OK;
+}
+
+/* The bytes of a buffer view, which are unpacked once. */
+static mr_status
+open_view(mr_gltf *g, size_t number, mr_gltf_buffer *b)
+{
+	const json_t *view = mr_gltf_at(g, "bufferViews", number);
+	const json_t *packed = json_object_get(json_object_get(view, "extensions"), MR_MESHOPT);
+
+	if (!packed)
+		return open_range(g, number, view, b);
+	if (!g->view[number].data)
+		MR_TRY(mr_prefix(g->ctx, unpack_view(g, number, packed, view, &g->view[number]),
+		    "buffer view %zu", number));
+	*b = g->view[number];
+	return MR_OK;
+}
+
+mr_status
+mr_gltf_view_of(mr_gltf *g, const json_t *object, mr_gltf_buffer *b)
+{
+	size_t view = 0;
+
+	MR_TRY(mr_gltf_index(g, object, "bufferView", "bufferViews", &view));
+	if (view == MR_UNKNOWN)
+		return mr_fail(g->ctx, MR_EFORMAT, "no buffer view is named");
+	return open_view(g, view, b);
 }
 
 /* ---- accessors ---- */
@@ -336,9 +394,10 @@ kind_bytes(size_t kind)
 	return kind >= 5120 && kind <= 5126 ? bytes[kind - 5120] : 0;
 }
 
-static size_t
-type_components(const char *type)
+size_t
+mr_gltf_components(const json_t *accessor)
 {
+	const char *type = json_string_value(json_object_get(accessor, "type"));
 	const char *of = type && strlen(type) == 4 && !strncmp(type, "VEC", 3) ? strchr("234", type[3])
 	                                                                       : NULL;
 
@@ -358,7 +417,8 @@ find_rows(
 	*data = NULL;
 	if (view == MR_UNKNOWN)
 		return MR_OK;
-	MR_TRY(open_view(g, view, &b, &step));
+	MR_TRY(mr_gltf_count(g, mr_gltf_at(g, "bufferViews", view), "byteStride", 0, 65535, &step));
+	MR_TRY(open_view(g, view, &b));
 	if (step == 0)
 		step = row;
 	if (step < row || step == 0)
@@ -382,7 +442,7 @@ open_accessor(mr_gltf *g, const json_t *json, mr_accessor *a)
 	MR_TRY(mr_gltf_count(g, json, "count", 0, MR_NONE - 1, &a->count));
 	if (json_object_get(json, "sparse"))
 		return mr_fail(g->ctx, MR_EFORMAT, "sparse values are not read");
-	a->components = type_components(type);
+	a->components = mr_gltf_components(json);
 	a->normalized = json_is_true(json_object_get(json, "normalized"));
 	if (a->components == 0 || kind_bytes(a->kind) == 0)
 		return mr_fail(g->ctx, MR_EFORMAT, "type %.20s of components %zu is not read",
@@ -396,6 +456,10 @@ mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a)
 {
 	mr_accessor made = { .number = number };
 
+	if (g->made[number].data) {
+		*a = g->made[number];
+		return MR_OK;
+	}
 	MR_TRY(mr_prefix(
 	    g->ctx, open_accessor(g, mr_gltf_at(g, "accessors", number), &made), "accessor %zu", number));
 	*a = made;

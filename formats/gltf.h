@@ -32,8 +32,12 @@ typedef struct mr_gltf {
 	json_t *root;
 	const unsigned char *bin; /* the chunk of bytes of a GLB; NULL: there is none */
 	size_t bin_bytes;
-	mr_gltf_buffer *buffer; /* as many as the document has */
+	mr_gltf_buffer *buffer;   /* as many as the document has */
+	mr_gltf_buffer *view;     /* the same: views that were unpacked */
+	struct mr_accessor *made; /* the same: accessors that an extension gave values */
 } mr_gltf;
+
+#define MR_DRACO "KHR_draco_mesh_compression"
 
 /* Parses the file, a GLB or JSON, which must stay; path: beside which its buffers are. */
 mr_status mr_gltf_open(
@@ -63,6 +67,15 @@ mr_status mr_gltf_numbers(const mr_gltf *g, const json_t *object, const char *ke
 
 /* The name of a thing; NULL where it has none, or an empty one. */
 const char *mr_gltf_name(const json_t *thing);
+
+/* The bytes of the buffer view that an object names. */
+mr_status mr_gltf_view_of(mr_gltf *g, const json_t *object, mr_gltf_buffer *b) MR_WARN_UNUSED;
+
+/* The numbers of a row of an accessor by its type; 0 for one that is not read. */
+size_t mr_gltf_components(const json_t *accessor);
+
+/* Gives values to the accessors of a primitive that Draco has packed; nothing of another. */
+mr_status mr_gltf_draco(mr_gltf *g, json_t *primitive) MR_WARN_UNUSED;
 
 /* Values in a buffer. */
 typedef struct mr_accessor {

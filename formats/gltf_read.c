@@ -346,7 +346,7 @@ count_part(reader *r, part *p)
 }
 
 static mr_status
-add_part(reader *r, const json_t *json, const instance *of)
+add_part(reader *r, json_t *json, const instance *of)
 {
 	part p = { .of = of };
 
@@ -357,6 +357,7 @@ add_part(reader *r, const json_t *json, const instance *of)
 		return MR_OK;
 	}
 	MR_TRY(find_accessors(r, json, &p));
+	MR_TRY(mr_gltf_draco(&r->g, json));
 	if (p.accessor[POSITION] == MR_UNKNOWN) /* by the specification there is nothing to draw */
 		return MR_OK;
 	MR_TRY(count_part(r, &p));

@@ -2,10 +2,13 @@
  * poses as morph targets that an animation shows one after the other.  All of a layer share its vertices. */
 #include "base/text.h"
 #include "formats/filename.h"
+#include "formats/gltf_meshopt.h"
 #include "formats/gltf_writer.h"
 #include "formats/image.h"
 #include "formats/materials.h"
 #include "mesh/name_lists.h"
+
+#include <ctype.h>
 
 enum { POINTS = 0 };
 
@@ -137,19 +140,63 @@ image_type(const mr_file_bytes *b)
 	return mr_is_jpeg(b->data, b->size) ? "image/jpeg" : NULL;
 }
 
+/* Bytes of a file's name without its suffix, .gz or not. */
+static size_t
+stem_bytes(const char *name)
+{
+	size_t n = strlen(name) - (mr_suffix_gz(name) ? 3 : 0), at = n;
+
+	while (at > 1 && name[at - 1] != '.')
+		at--;
+	return at > 1 ? at - 1 : n;
+}
+
+/* A file beside the document, called as that is up to `end`, and the URI of it. */
+static mr_status
+put_file(glb *w, const char *end, const void *data, size_t bytes, json_t **uri)
+{
+	const char *path = w->s->path, *name = mr_file_name(path);
+	int stem = (int)stem_bytes(name);
+	mr_text text = { .ctx = w->ctx };
+	mr_sink s;
+
+	MR_TRY(mr_sink_open(
+	    w->ctx, mr_format(w->ctx, "%.*s%s", (int)(name - path) + stem, path, end), false, &s));
+	mr_put(&s, data, bytes);
+	MR_TRY(mr_sink_close(&s, MR_OK));
+	for (int i = 0; i < stem; i++) {
+		bool plain = isalnum((unsigned char)name[i]) || strchr("-._~", name[i]);
+		if (plain)
+			mr_text_bytes(&text, name + i, 1);
+		else
+			mr_text_add(&text, "%%%02X", (unsigned)(unsigned char)name[i]);
+	}
+	mr_text_add(&text, "%s", end);
+	*uri = json_string(text.s);
+	return MR_OK;
+}
+
 /* The bytes of a picture as they are, and the texture that shows it. */
 static mr_status
 put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 {
-	size_t view, image;
-	char *to = NULL;
+	const char *type = image_type(b);
+	size_t view = MR_UNKNOWN, image;
+	json_t *uri = NULL;
+	char *to = NULL, end[32];
 
 	MR_ENTER(w->ctx);
-	view = mr_glb_new_view(w, b->size, 1, MR_UNKNOWN, MR_VIEW_BYTES, &to);
-	memcpy(to, b->data, b->size);
+	if (w->beside) {
+		snprintf(end, sizeof end, "-%zu.%s", json_array_size(json_object_get(w->root, "images")) + 1,
+		    mr_is_png(b->data, b->size) ? "png" : "jpg");
+		MR_TRY(put_file(w, end, b->data, b->size, &uri));
+	} else {
+		view = mr_glb_new_view(w, b->size, 1, MR_UNKNOWN, MR_VIEW_BYTES, &to);
+		memcpy(to, b->data, b->size);
+	}
 	image = mr_glb_push(w, "images",
-	    json_pack("{s:I, s:s, s:s}", "bufferView", number(view), "mimeType", image_type(b), "name",
-		mr_file_name(file)));
+	    json_pack("{s:o*, s:o*, s:s, s:s}", "uri", uri, "bufferView", index_of(view), "mimeType", type,
+		"name", mr_file_name(file)));
 	*texture = mr_glb_push(w, "textures", json_pack("{s:I}", "source", number(image)));
 	return MR_OK;
 }
@@ -292,6 +339,8 @@ put_node(glb *w, const layer *l, const char *name, json_t *primitives)
 
 	place_node(w, l, json);
 	node = mr_glb_push(w, "nodes", json);
+	MR_RESERVE(w->ctx, w->take, node, 1, &w->takes);
+	w->take[node] = l->node->take;
 	if (l->node->targets)
 		mr_glb_append(w, w->channels,
 		    json_pack("{s:I, s:{s:I, s:s}}", "sampler", number(l->sampler), "target", "node",
@@ -317,6 +366,16 @@ is_alike(const layer *l, uint32_t f, uint32_t g)
 	return l->object.of[f] == l->object.of[g] && l->material.of[f] == l->material.of[g];
 }
 
+size_t
+mr_glb_run(const layer *l, size_t first)
+{
+	size_t end = first + 1;
+
+	while (end < l->model.nf && is_alike(l, l->face[first], l->face[end]))
+		end++;
+	return end;
+}
+
 /* The primitives of one object, from face *at in the order on, which goes behind them. */
 static void
 put_object(glb *w, const layer *l, size_t *at)
@@ -325,9 +384,7 @@ put_object(glb *w, const layer *l, size_t *at)
 	json_t *primitives = json_array();
 
 	while (*at < l->model.nf && l->object.of[l->face[*at]] == object) {
-		size_t end = *at + 1;
-		while (end < l->model.nf && is_alike(l, l->face[*at], l->face[end]))
-			end++;
+		size_t end = mr_glb_run(l, *at);
 		put_primitive(w, l, *at, end, primitives);
 		*at = end;
 	}
@@ -362,6 +419,8 @@ put_layer(glb *w, layer *l)
 		return mr_fail(w->ctx, MR_EMESH, "a layer without a vertex cannot be written as glb");
 	mr_glb_find_vertices(w, l);
 	order_faces(w, l);
+	if (w->scene->gltf.compress && m->nf)
+		mr_glb_order(w, l);
 	mr_glb_put_vertices(w, l);
 	mr_glb_put_poses(w, l);
 	if (m->nf == 0) {
@@ -393,30 +452,84 @@ node_name(mr_ctx *ctx, const mr_scene *scene, const mr_scene_node *n)
 
 /* What a reader has to know beyond the format. */
 static void
-name_extensions(glb *w)
+need_extension(glb *w, const char *name)
 {
-	const mr_gltf_opts *o = &w->scene->gltf;
-
-	if (o->quantize) {
-		mr_glb_push(w, "extensionsUsed", json_string("KHR_mesh_quantization"));
-		mr_glb_push(w, "extensionsRequired", json_string("KHR_mesh_quantization"));
-	}
+	mr_glb_push(w, "extensionsUsed", json_string(name));
+	mr_glb_push(w, "extensionsRequired", json_string(name));
 }
 
-/* All nodes stand beside each other in one scene. */
-static void
-end_root(glb *w)
+/* Levels of detail (MSFT_lod): nodes of later frames are lesser ones of those of the first, in their order.
+ */
+static mr_status
+put_levels(glb *w, size_t nodes, size_t first)
 {
-	size_t nodes = json_array_size(json_object_get(w->root, "nodes"));
-	json_t *list = json_array();
+	json_t *all = json_object_get(w->root, "nodes");
+	bool fit = nodes % first == 0;
 
 	for (size_t i = 0; i < nodes; i++)
+		fit = fit && w->take[i] == w->take[i / first * first] &&
+		      (i < first || w->take[i] != w->take[i - first]);
+	if (!fit)
+		return mr_fail(w->ctx, MR_EMESH, "levels of detail with different numbers of objects");
+	for (size_t i = 0; i < first; i++) {
+		json_t *ids = json_array();
+		for (size_t k = i + first; k < nodes; k += first)
+			mr_glb_append(w, ids, json_integer(number(k)));
+		w->failed |= json_object_set_new(json_array_get(all, i), "extensions",
+				 json_pack("{s:{s:o}}", "MSFT_lod", "ids", ids)) != 0;
+	}
+	mr_glb_push(w, "extensionsUsed", json_string("MSFT_lod"));
+	return MR_OK;
+}
+
+/* All nodes stand beside each other in one scene, or those of the first frame, of which the others are
+ * levels. */
+static mr_status
+put_scene(glb *w)
+{
+	size_t nodes = json_array_size(json_object_get(w->root, "nodes")), shown = nodes;
+	json_t *list = json_array();
+
+	while (w->scene->gltf.lods && w->take && shown > 1 && w->take[shown - 1] != w->take[0])
+		shown--;
+	for (size_t i = 0; i < shown; i++)
 		mr_glb_append(w, list, json_integer(number(i)));
 	mr_glb_push(w, "scenes", json_pack("{s:o}", "nodes", list));
-	mr_glb_push(w, "buffers", json_pack("{s:I}", "byteLength", number(w->bytes)));
+	return shown < nodes ? put_levels(w, nodes, shown) : MR_OK;
+}
+
+/* The bytes; where they are packed, behind them what they unpack to. */
+static mr_status
+put_buffers(glb *w)
+{
+	json_t *uri = NULL;
+	size_t all = 0;
+
+	if (w->scene->gltf.compress)
+		mr_glb_compress(w, &all);
+	if (w->beside)
+		MR_TRY(put_file(w, ".bin", w->bin, w->bytes, &uri));
+	mr_glb_push(w, "buffers", json_pack("{s:I, s:o*}", "byteLength", number(w->bytes), "uri", uri));
+	if (all)
+		mr_glb_push(w, "buffers",
+		    json_pack("{s:I, s:{s:{s:b}}}", "byteLength", number(all), "extensions", MR_MESHOPT,
+			"fallback", 1));
+	if (all)
+		need_extension(w, MR_MESHOPT);
+	if (w->scene->gltf.quantize)
+		need_extension(w, "KHR_mesh_quantization");
+	return MR_OK;
+}
+
+static mr_status
+end_root(glb *w)
+{
+	MR_TRY(put_scene(w));
+	MR_TRY(put_buffers(w));
 	if (json_array_size(w->channels))
 		mr_glb_push(w, "animations",
 		    json_pack("{s:O, s:O}", "samplers", w->samplers, "channels", w->channels));
+	return MR_OK;
 }
 
 /* Header, JSON filled up with blanks, bytes. */
@@ -443,10 +556,10 @@ add_text(const char *s, size_t n, void *text)
 }
 
 /* Into a text of ours: json_dumps leaves out a key for which it has no memory, and says that all is well. */
-mr_status
-mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
+static mr_status
+write_document(mr_sink *s, const mr_scene *scene, bool beside)
 {
-	glb w = { .s = s, .ctx = s->ctx, .scene = scene, .unnamed = MR_UNKNOWN };
+	glb w = { .s = s, .ctx = s->ctx, .scene = scene, .unnamed = MR_UNKNOWN, .beside = beside };
 	mr_text json = { .ctx = w.ctx };
 
 	w.root = owned(&w, json_pack("{s:{s:s, s:s}, s:i}", "asset", "version", "2.0", "generator",
@@ -460,14 +573,29 @@ mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
 			.targets = owned(&w, json_array()) };
 		MR_TRY(put_layer(&w, &l));
 	}
-	end_root(&w);
-	name_extensions(&w);
+	MR_TRY(end_root(&w));
 	w.failed |= json_dump_callback(w.root, add_text, &json, JSON_COMPACT) != 0;
 	if (w.large)
 		return mr_fail(w.ctx, MR_ERANGE, "texture coordinates are too large for float32");
 	if (w.failed)
 		return mr_fail(w.ctx, MR_EMEM, "no memory for the JSON of a glb");
-	return put_chunks(&w, json.s);
+	if (!beside)
+		return put_chunks(&w, json.s);
+	mr_put(s, json.s, json.n);
+	mr_put(s, "\n", 1);
+	return MR_OK;
+}
+
+mr_status
+mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
+{
+	return write_document(s, scene, false);
+}
+
+mr_status
+mr_gltf_write_scene(mr_sink *s, const mr_scene *scene)
+{
+	return write_document(s, scene, true);
 }
 
 mr_status
@@ -477,11 +605,23 @@ mr_glb_note_lost(mr_sink *s, const mr_model *m)
 	return mr_note_rounded(s, m);
 }
 
-mr_status
-mr_glb_write(mr_sink *s, const mr_model *m)
+static mr_status
+write_model(mr_sink *s, const mr_model *m, bool beside)
 {
 	mr_scene_node node = { .frame = "", .layer = "", .model = *m };
 
 	MR_TRY(mr_glb_note_lost(s, m));
-	return mr_glb_write_scene(s, &(mr_scene){ .node = &node, .nodes = 1, .folder = "." });
+	return write_document(s, &(mr_scene){ .node = &node, .nodes = 1, .folder = "." }, beside);
+}
+
+mr_status
+mr_glb_write(mr_sink *s, const mr_model *m)
+{
+	return write_model(s, m, false);
+}
+
+mr_status
+mr_gltf_write(mr_sink *s, const mr_model *m)
+{
+	return write_model(s, m, true);
 }

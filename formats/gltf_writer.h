@@ -27,6 +27,9 @@ typedef struct glb {
 	const char **image; /* files of the images so far */
 	size_t image_room;
 	size_t unnamed; /* the material of faces without one; MR_UNKNOWN: not there yet */
+	bool beside;    /* bytes and pictures are files beside the document */
+	size_t *take;   /* of each node, the frame that began it */
+	size_t takes;
 	mr_gltf_view *view;
 	size_t views, view_room;
 } glb;
@@ -73,6 +76,15 @@ void mr_glb_find_vertices(glb *w, layer *l);
 /* Writes what the vertices have, and what the poses do to them, as accessors. */
 void mr_glb_put_vertices(glb *w, layer *l);
 void mr_glb_put_poses(glb *w, layer *l);
+
+/* Where the run of faces that can be of one primitive ends, in the order. */
+size_t mr_glb_run(const layer *l, size_t first);
+
+/* Orders vertices, and faces within primitives, so that they pack well. */
+void mr_glb_order(glb *w, layer *l);
+
+/* Packs the views.  *all: their bytes in the second buffer, which is none but by unpacking. */
+void mr_glb_compress(glb *w, size_t *all);
 
 /* Appends to an array; its number there. */
 size_t mr_glb_append(glb *w, json_t *array, json_t *thing);

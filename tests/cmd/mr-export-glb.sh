@@ -106,6 +106,29 @@ mr-make sphere -n 3000 | mr-select --free all --fixed below:z,0.9 --handle 0=abo
 mr-export -q -i tip.mrs tip.glb
 has tip.glb '"sparse":{"count":[0-9]*,"indices":{"bufferView":[0-9]*,"componentType":5123},"values":{"bufferView":[0-9]*}}'
 
+echo '-- packed'
+mr-export -q -i tip.mrs --quantize --compress tip-packed.glb
+has tip-packed.glb '"EXT_meshopt_compression":{"buffer":0,' '"mode":"TRIANGLES"' '"fallback":true'
+[ $(($(wc -c <tip-packed.glb) * 3)) -lt "$(wc -c <tip.glb)" ] && echo 'a third'
+
+echo '-- JSON, bytes and pictures as files'
+mkdir apart
+mr-export -i box.mrs --materials elsewhere 'apart/a box.gltf' 2>/dev/null
+ls apart && grep -o '"uri":"[^"]*"' 'apart/a box.gltf' && cmp grain.png 'apart/a box-1.png'
+mr-import -q 'apart/a box.gltf' | mr-export -q -f obj - >apart.obj && mr-import -q full.glb | mr-export -q -f obj - | cmp - apart.obj && echo same
+mr-export -i torus.mrs apart/torus.gltf.gz && mr-import apart/torus.gltf.gz | mr-info | grep vertices && ls apart
+mr-export -i tip.mrs -q --compress apart/tip.gltf && mr-import -q apart/tip.gltf | mr-info | grep vertices
+
+echo '-- levels of detail'
+mr-simplify -n 200 torus.mrs -o less.mrs && mr-simplify -n 100 torus.mrs -o least.mrs
+mr-cat torus.mrs less.mrs least.mrs | mr-export --lods lods.glb
+has lods.glb '"extensions":{"MSFT_lod":{"ids":\[1,2\]}}' '"nodes":\[0\]' '"extensionsUsed":\["MSFT_lod"\]'
+mr-import -q lods.glb | mr-info | grep vertices
+mr-export -i torus.mrs --lods one.glb && json one.glb | grep -c MSFT
+printf 'o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nf 1 3 2\n' | mr-import -q -o two.mrs
+mr-cat torus.mrs two.mrs | mr-export --lods odd.glb
+echo "exit $?"
+
 echo '-- a base has what its mesh came with, as in any format'
 mr-make sphere -n 300 --texcoords | mr-smooth | mr-export base.glb
 mr-import base.glb | mr-info | grep texcoord
@@ -118,7 +141,7 @@ mr-export -i torus.mrs -l mesh,control cut.glb
 echo "exit $?"
 mr-export -i torus.mrs --materials . cut.obj
 echo "exit $?"
-mr-export -i torus.mrs cut.gltf
+mr-export -i torus.mrs -f gltf -
 echo "exit $?"
 mr-export -i torus.mrs -f glb /dev/full
 echo "exit $?"

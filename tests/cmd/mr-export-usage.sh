@@ -16,6 +16,9 @@ export_cube -o a.obj -f obj -
 export_cube --float a.obj
 export_cube --no-normals a.obj
 export_cube --quantize a.ply
+export_cube --compress a.ply
+export_cube --lods a.ply
+export_cube --lods 'a%d.glb'
 ls a.* 2>/dev/null
 mr-cat cube.mrs cube.mrs | mr-export two.obj
 echo "exit $?" >&2

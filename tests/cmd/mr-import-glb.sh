@@ -44,7 +44,7 @@ document >e.gltf '' '' ',"uri":"parts.bin"'
 refused e.gltf
 document >e.gltf '{"children":[1]},{"children":[0],"mesh":0}'
 refused e.gltf
-document >e.gltf '' ',"extensionsRequired":["EXT_meshopt_compression"]'
+document >e.gltf '' ',"extensionsRequired":["KHR_gaussian_splatting"]'
 refused e.gltf
 document >e.gltf '{"camera":0}'
 refused e.gltf

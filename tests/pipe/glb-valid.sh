@@ -33,5 +33,8 @@ for model in $models; do
 	mr-export -q -i $model.mrs $model.glb
 	mr-export -q --no-normals -i $model.mrs $model-flat.glb
 	mr-export -q --quantize -i $model.mrs $model-few.glb
+	mr-export -q --quantize --compress -i $model.mrs $model-packed.glb
+	mr-export -q -i $model.mrs $model.gltf
 done
-node valid.js ./*.glb
+mr-export -q --lods -i several.mrs levels.glb
+node valid.js ./*.glb ./*.gltf

@@ -2,6 +2,8 @@
  * Damaged files: every prefix, every byte changed, pieces cut out and put in twice, and memory that fails at
  * every allocation.  A reader gives a valid model or a sentence; a sanitizer watches the rest.
  */
+#include "formats/model.h"
+#include "gltf_text.h"
 #include "model_seeds.h"
 
 #include <math.h>
@@ -164,6 +166,65 @@ written_damaged(void **state)
 	}
 }
 
+/* A GLB whose second chunk is damaged, a bit at a time. */
+static void
+damage_chunk(const unsigned char *glb, size_t size, size_t chunk)
+{
+	unsigned char *copy = malloc(size);
+
+	memcpy(copy, glb, size);
+	for (size_t i = size - chunk; i < size; i++)
+		for (int bit = 0; bit < 8; bit += 3) {
+			copy[i] = (unsigned char)(glb[i] ^ 1 << bit);
+			feed("glb", copy, size);
+			copy[i] = glb[i];
+		}
+	free(copy);
+}
+
+/* A GLB that is packed, damaged. */
+static void
+packed_damaged(void **state)
+{
+	mr_ctx ctx;
+	mr_scene_node node = { .frame = "", .layer = "" };
+	mr_scene scene = {
+		.node = &node, .nodes = 1, .folder = ".", .gltf = { .quantize = true, .compress = true }
+	};
+	mr_file_bytes b = { 0 };
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	node.model = make_model(&ctx, 60, 80, true);
+	node.model.groups = (mr_lines){ 0 };
+	assert_int_equal(mr_scene_write(&ctx, "packed.glb", NULL, &scene, NULL), MR_OK);
+	read_back("packed.glb", &b);
+	damage_chunk(b.data, b.size, b.size - 28 - mr_load32(b.data + 12, false));
+	mr_file_bytes_end(&b, MR_OK);
+	mr_ctx_free(&ctx);
+}
+
+/* A tetrahedron that Draco has packed, damaged; where this was built without Draco, it is refused. */
+static void
+draco_damaged(void **state)
+{
+	static const char json[] =
+	    "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+	    "\"indices\":1,\"extensions\":{\"KHR_draco_mesh_compression\":{\"bufferView\":0,\"attributes\":"
+	    "{\"POSITION\":0}}}}]}],\"accessors\":[{\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+	    "{\"componentType\":5125,\"count\":12,\"type\":\"SCALAR\"}],"
+	    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":76}],\"buffers\":[{\"byteLength\":76}]}";
+	static const unsigned char packed[76] = { 68, 82, 65, 67, 79, 2, 2, 1, 1, 0, 0, 0, 4, 4, 0, 3, 0, 0,
+		1, 47, 1, 1, 16, 1, 255, 0, 0, 1, 0, 9, 3, 0, 0, 2, 1, 1, 1, 0, 3, 3, 1, 16, 1, 48, 3, 0, 80,
+		130, 36, 145, 4, 0, 0, 0, 0, 255, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 128, 63,
+		11 };
+	bytes bin = { (unsigned char *)packed, sizeof packed }, glb = make_glb(json, &bin);
+
+	(void)state;
+	damage_chunk(glb.data, glb.size, sizeof packed);
+	free(glb.data);
+}
+
 static void
 put_file(const char *path, const unsigned char *data, size_t size)
 {
@@ -271,9 +332,10 @@ memory_fails_writing(void **state)
 int
 main(void)
 {
-	const struct CMUnitTest tests[] = { cmocka_unit_test(seeds_damaged),
-		cmocka_unit_test(written_damaged), cmocka_unit_test(gzip_damaged),
-		cmocka_unit_test(memory_fails), cmocka_unit_test(memory_fails_writing) };
+	const struct CMUnitTest tests[] = { cmocka_unit_test(seeds_damaged), cmocka_unit_test(packed_damaged),
+		cmocka_unit_test(draco_damaged), cmocka_unit_test(written_damaged),
+		cmocka_unit_test(gzip_damaged), cmocka_unit_test(memory_fails),
+		cmocka_unit_test(memory_fails_writing) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -274,8 +274,8 @@ refused(void **state)
 	refuses("\"2.0\"", "\"1.0\"", "version 1.0 of glTF is not read, 2.0 is");
 	refuses("\"asset\"", "\"assets\"", "version none of glTF is not read, 2.0 is");
 	refuses("[0]", "[0,]", "JSON, line 1: unexpected token near ']'");
-	refuses("\"scene\":0", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
-	    "the file needs the extension KHR_draco_mesh_compression, which is not read");
+	refuses("\"scene\":0", "\"extensionsRequired\":[\"KHR_gaussian_splatting\"]",
+	    "the file needs the extension KHR_gaussian_splatting, which is not read");
 	refuses("\"scene\":0", "\"scene\":1", "scene names number 1 of 1 scenes");
 	refuses("{\"mesh\":0,", "{\"children\":[0],\"mesh\":0,",
 	    "node 0 hangs from more than one, or from itself");
