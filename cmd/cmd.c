@@ -40,6 +40,7 @@ struct cmd_state {
 	findings_book book; /* what was found */
 
 	const char *frame_name;
+	bool ending;           /* all frames were read */
 	bool lost_key;         /* the key failed: its deltas go with it */
 	uint64_t failed, lost; /* frames left out: that failed, that depended on one that failed */
 	double started, shown; /* when the frame began; when progress was last shown, 0: never */
@@ -205,6 +206,7 @@ finish(cmd *c)
 		MR_TRY(mr_side_end(&c->ctx, s->sides[i], c->frame));
 	if (c->tool->names_output && c->frame == 0)
 		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame");
+	s->ending = true;
 	if (c->tool->finish)
 		MR_TRY(c->tool->finish(c));
 	if (!c->quiet)
@@ -593,7 +595,7 @@ print_stats(cmd *c, double seconds)
 	const char *name = s->frame_name ? s->frame_name : "";
 	mr_text line = { .ctx = &c->ctx };
 
-	if (!s->stats)
+	if (!s->stats || (c->keeps && !s->ending))
 		return;
 	mr_text_add(
 	    &line, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)c->frame);
@@ -659,7 +661,20 @@ work_on(cmd *c, mr_frame *f)
 	MR_TRY(mr_judge_losses(&c->ctx, &before, f));
 	if (tool->judged && !c->no_check)
 		MR_TRY(findings_judge(&c->ctx, &c->state->book, &before, f));
-	return tool->sends ? MR_OK : cmd_send(c, f);
+	return tool->sends || c->keeps ? MR_OK : cmd_send(c, f);
+}
+
+mr_status
+cmd_send_kept(cmd *c, mr_frame *f, mr_status (*work)(cmd *c, mr_frame *f))
+{
+	c->frame = f->number;
+	begin_frame(c, f->name);
+	MR_TRY(work(c, f));
+	MR_TRY(cmd_send(c, f));
+	clear_progress(c);
+	print_stats(c, mr_seconds() - c->state->started);
+	c->state->frame_name = NULL;
+	return MR_OK;
 }
 
 static void

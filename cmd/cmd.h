@@ -72,6 +72,7 @@ struct cmd {
 	bool no_check; /* a judged tool is not judged */
 	bool stats;    /* figures are asked for: --stats */
 	bool sink;     /* as the tool's, unless prepare has it write a stream */
+	bool keeps;    /* `frame` keeps frames, which finish sends by cmd_send_kept; prepare says so */
 	void *result;  /* of `frame`, for its figures; NULL: they are not asked for */
 	mr_outfile
 	    held; /* a file that is whole gets its name at the end, if all goes well; else it is dropped */
@@ -108,6 +109,9 @@ mr_status cmd_side(cmd *c, const char *path, mr_side *side) MR_WARN_UNUSED;
 
 /* Sends a frame now: a source, or a filter that says it `sends`. */
 mr_status cmd_send(cmd *c, const mr_frame *f);
+
+/* For finish, of a tool that `keeps`: works on a kept frame and sends it, as if it were read then. */
+mr_status cmd_send_kept(cmd *c, mr_frame *f, mr_status (*work)(cmd *c, mr_frame *f));
 
 /* A source that makes a frame of each operand ("-" where there are none): calls `one` for each, in an arena
  * of its own; with -k one that fails is reported and left out. */

@@ -892,6 +892,13 @@ typedef struct mr_align_result {
 MR_API mr_status mr_align_frame(mr_ctx *ctx, mr_frame *f, mr_frame *reference, const mr_align_opts *opts,
     mr_align_result *result) MR_WARN_UNUSED;
 
+/* The motions that bring n frames into that of the first which fits others; mr_align_put moves a frame by its own.
+ * result: of each, by the pair that joins it.  opts: but for the scale. */
+MR_API mr_status mr_align_frames(mr_ctx *ctx, mr_frame *const *frames, size_t n, const mr_align_opts *opts,
+    mr_align_result *result) MR_WARN_UNUSED;
+MR_API mr_status mr_align_put(mr_ctx *ctx, mr_frame *f, const mr_align_opts *opts, const mr_align_result *result)
+    MR_WARN_UNUSED;
+
 /* Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.
  * mr_judge compares the surface that a tool made or moved with what it was.  least: NULL, or of a sequence, at first
  * 0: nothing is judged that has moved by less, and *least becomes twice the largest distance that was. */

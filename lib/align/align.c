@@ -1,220 +1,17 @@
 /* Rigid alignment: of many guesses those that bring most points onto the other side, and of these, drawn near
- * by points to planes (Chen, Medioni 1992; Rusinkiewicz 2019: the planes by the sum of both normals; Tukey's
- * weights trim what has no partner), the one on which most points lie. */
-#include "align/model.h"
+ * by points to planes, the one on which most points lie. */
+#include "align/pairs.h"
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/sort.h"
 
-enum {
-	GUESSES = 8000,
-	SHOWN = 128,
-	TRIED = 24,
-	DRAWN = 500,
-	JUDGED = 1500,
-	ROUNDS = 12,
-	LAST = 60,
-	UNKNOWNS = 7
-};
+enum { GUESSES = 8000, SHOWN = 128, TRIED = 24, DRAWN = 500, JUDGED = 1500, ROUNDS = 12, LAST = 60 };
 
 /* Guesses that turn each other's points by less than this many steps are one. */
 static const double SAME = 6;
 
 /* A motion is found where partners fit it well, and no other place does nearly as well. */
 static const double FITS = 0.55, OTHER = 0.8, BETTER = 0.05;
-
-/* Cosine of normals of points that may be partners. */
-static const double COSINE = 0.7;
-
-/* ---- points on the other side ---- */
-
-/* Some points of a where a map brings them, and their nearest on b. */
-typedef struct pairing {
-	const samples *a, *b;
-	bool oriented;
-	size_t n; /* of a, at equal strides */
-	mr_v3 *p, *normal;
-	uint32_t *near; /* MR_NONE: none */
-	mr_v3 *asked;   /* work of a query */
-	uint32_t *of, *got;
-} pairing;
-
-static pairing
-new_pairing(mr_ctx *ctx, const samples *a, const samples *b, bool oriented, size_t n)
-{
-	n = n < a->n ? n : a->n;
-	return (pairing){ a, b, oriented, n, MR_NEW(ctx, n, mr_v3), MR_NEW(ctx, n, mr_v3),
-		MR_NEW(ctx, n, uint32_t), MR_NEW(ctx, n, mr_v3), MR_NEW(ctx, n, uint32_t),
-		MR_NEW(ctx, n, uint32_t) };
-}
-
-/* The pairs of a map: by the cells of `of` alone, or exactly. */
-static mr_status
-pair(mr_ctx *ctx, pairing *w, const samples *cells, bool exactly, const mr_affine *map)
-{
-	mr_mat3 turn = mr_affine_linear(map);
-	size_t n = 0;
-
-	for (size_t i = 0; i < w->n; i++) {
-		size_t k = i * w->a->n / w->n;
-		w->p[i] = mr_apply(map, w->a->p[k]);
-		w->normal[i] = mr_unit(mr_mat3_apply(&turn, w->a->normal[k]));
-		w->near[i] = mr_align_nearby(cells, w->p[i]);
-		if (w->near[i] != MR_NONE) {
-			w->asked[n] = w->p[i];
-			w->of[n++] = (uint32_t)i;
-		}
-	}
-	if (!exactly)
-		return MR_OK;
-	MR_TRY(mr_near_query(ctx, w->b->near, w->asked, n, 1, w->got, NULL));
-	for (size_t k = 0; k < n; k++)
-		w->near[w->of[k]] = w->got[k];
-	return MR_OK;
-}
-
-/* What a pair is. */
-typedef struct partner {
-	mr_v3 plane;   /* its normal, between both */
-	double off;    /* from b's point along it */
-	double cosine; /* of both normals */
-} partner;
-
-/* False where point i has no partner within reach whose side agrees. */
-static bool
-find_partner(const pairing *w, size_t i, double reach, partner *to)
-{
-	mr_v3 n, d;
-
-	if (w->near[i] == MR_NONE)
-		return false;
-	n = w->b->normal[w->near[i]];
-	d = mr_sub(w->b->p[w->near[i]], w->p[i]);
-	to->cosine = mr_dot(w->normal[i], n);
-	if (to->cosine < 0 && !w->oriented) {
-		n = mr_mul(-1, n);
-		to->cosine = -to->cosine;
-	}
-	if (to->cosine < COSINE || !(mr_norm2(d) < reach * reach))
-		return false;
-	to->plane = mr_unit(mr_add(n, w->normal[i]));
-	to->off = mr_dot(to->plane, d);
-	return true;
-}
-
-/* The share of the points on the other side: each by its distance from the plane and by the normals. */
-static double
-score(const pairing *w, double reach, double limit)
-{
-	double sum = 0;
-	partner to;
-
-	for (size_t i = 0; i < w->n; i++)
-		if (find_partner(w, i, reach, &to) && fabs(to.off) < limit)
-			sum += (1 - mr_square(to.off / limit)) * (to.cosine - COSINE) / (1 - COSINE);
-	return sum / (double)w->n;
-}
-
-/* ---- points to planes ---- */
-
-/* x = A^-1 b of a positive definite matrix, by Cholesky in place. */
-static void
-solve(double a[UNKNOWNS][UNKNOWNS], double x[UNKNOWNS])
-{
-	for (int i = 0; i < UNKNOWNS; i++)
-		for (int j = 0; j <= i; j++) {
-			double sum = a[i][j];
-			for (int k = 0; k < j; k++)
-				sum -= a[i][k] * a[j][k];
-			a[i][j] = i == j ? sqrt(sum) : sum / a[j][j];
-		}
-	for (int i = 0; i < UNKNOWNS; i++) {
-		for (int k = 0; k < i; k++)
-			x[i] -= a[i][k] * x[k];
-		x[i] /= a[i][i];
-	}
-	for (int i = UNKNOWNS; i-- > 0;) {
-		for (int k = i + 1; k < UNKNOWNS; k++)
-			x[i] -= a[k][i] * x[k];
-		x[i] /= a[i][i];
-	}
-}
-
-/* What a round of drawing near found. */
-typedef struct drawn {
-	double rms;   /* of distances to planes, weighted */
-	double share; /* of the points that have a partner */
-	double moved; /* by the round's step */
-} drawn;
-
-/* One step of Gauss and Newton over the pairs within reach, not on the rim. */
-static drawn
-step(mr_ctx *ctx, const pairing *w, double reach, bool scale, mr_affine *map)
-{
-	MR_SCOPE(ctx);
-	double a[UNKNOWNS][UNKNOWNS] = { { 0 } }, x[UNKNOWNS] = { 0 }, weight = 0, square = 0, trace = 0;
-	double *off = MR_NEW(ctx, w->n + 1, double), *size = MR_NEW(ctx, w->n + 1, double), limit;
-	mr_v3 *plane = MR_NEW(ctx, w->n + 1, mr_v3);
-	uint32_t *of = MR_NEW(ctx, w->n + 1, uint32_t);
-	size_t n = 0;
-	partner to;
-
-	for (size_t i = 0; i < w->n; i++)
-		if (find_partner(w, i, reach, &to) && !w->b->rim[w->near[i]]) {
-			plane[n] = to.plane;
-			off[n] = to.off;
-			size[n] = fabs(off[n]);
-			of[n++] = (uint32_t)i;
-		}
-	if (n < UNKNOWNS)
-		return (drawn){ INFINITY, 0, 0 };
-	limit = 4.685 * 1.4826 * mr_kth(size, n, n / 2) + 1e-14;
-	for (size_t k = 0; k < n; k++) {
-		double u = off[k] / limit, one = fabs(u) < 1 ? mr_square(1 - u * u) : 0;
-		mr_v3 p = w->p[of[k]], turn = mr_cross(p, plane[k]);
-		const double j[UNKNOWNS] = { turn.x, turn.y, turn.z, plane[k].x, plane[k].y, plane[k].z,
-			scale ? mr_dot(p, plane[k]) : 0 };
-		for (int r = 0; r < UNKNOWNS; r++) {
-			for (int c = 0; c <= r; c++)
-				a[r][c] += one * j[r] * j[c];
-			x[r] += one * j[r] * off[k];
-		}
-		weight += one;
-		square += one * off[k] * off[k];
-	}
-	for (int r = 0; r < UNKNOWNS; r++)
-		trace += a[r][r];
-	for (int r = 0; r < UNKNOWNS; r++) /* a surface may slide on itself: then it stays */
-		a[r][r] += 1e-9 * trace + (r == UNKNOWNS - 1 && !scale ? 1 : 0);
-	solve(a, x);
-	mr_mat3 turn = mr_rotation_exp(mr_vec(x[0], x[1], x[2]));
-	double s = exp(x[6]);
-	const double *m = turn.m;
-	mr_affine by = { { s * m[0], s * m[1], s * m[2], x[3], s * m[3], s * m[4], s * m[5], x[4], s * m[6],
-	    s * m[7], s * m[8], x[5] } };
-	*map = mr_compose(&by, map);
-	return (drawn){ sqrt(square / weight), (double)n / (double)w->n,
-		sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3] + x[4] * x[4] + x[5] * x[5] +
-		     x[6] * x[6]) };
-}
-
-/* Rounds of pairing and stepping, within a reach that falls from `from` to `to`, until it rests. */
-static mr_status
-draw_near(mr_ctx *ctx, pairing *w, const samples *cells, double from, double to, size_t rounds, bool scale,
-    mr_affine *map, drawn *d)
-{
-	const double rest = 1e-10;
-
-	for (size_t i = 0; i < rounds; i++) {
-		double reach = fmax(to, from * pow(0.7, (double)i));
-		MR_TRY(pair(ctx, w, cells, true, map));
-		*d = step(ctx, w, reach, scale, map);
-		if (!(d->moved > rest) && reach == to)
-			break;
-	}
-	return MR_OK;
-}
 
 /* ---- guesses ---- */
 
@@ -362,12 +159,12 @@ is_same(const mr_affine *x, const mr_affine *y)
 static mr_status
 choose(mr_ctx *ctx, const model *a, const model *b, bool oriented, candidate *c, size_t n, size_t *chosen)
 {
-	pairing w = new_pairing(ctx, &a->sparse, &b->sparse, oriented, SHOWN);
+	pairing w = mr_align_pairing(ctx, &a->sparse, &b->sparse, &b->sparse, oriented, SHOWN);
 	size_t kept = 0;
 
 	for (size_t i = 0; i < n; i++) {
-		MR_TRY(pair(ctx, &w, &b->sparse, false, &c[i].map));
-		c[i].score = score(&w, 3 * STEP, 2 * STEP);
+		MR_TRY(mr_align_pair(ctx, &w, false, &c[i].map));
+		c[i].score = mr_align_score(&w, 3 * STEP, 2 * STEP);
 	}
 	qsort(c, n, sizeof *c, compare_scores);
 	for (size_t i = 0; i < n && kept < TRIED; i++) {
@@ -383,14 +180,26 @@ choose(mr_ctx *ctx, const model *a, const model *b, bool oriented, candidate *c,
 
 /* ---- all of it ---- */
 
+/* Of two sides the one onto the other. */
 static mr_status
-find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_result *r, mr_affine *map)
+draw_near(
+    mr_ctx *ctx, pairing *w, double from, double to, size_t rounds, bool scale, mr_affine *map, drawn *d)
+{
+	mr_affine pose[2] = { mr_identity(), *map };
+
+	MR_TRY(mr_align_draw_near(ctx, w, 1, pose, 2, from, to, rounds, scale, d));
+	*map = pose[1];
+	return MR_OK;
+}
+
+mr_status
+mr_align_find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_result *r, mr_affine *map)
 {
 	bool oriented = a->oriented && b->oriented;
 	candidate *c = MR_NEW(ctx, GUESSES, candidate);
-	pairing few = new_pairing(ctx, &a->sparse, &b->sparse, oriented, DRAWN);
-	pairing some = new_pairing(ctx, &a->sparse, &b->sparse, oriented, JUDGED);
-	pairing all = new_pairing(ctx, &a->dense, &b->dense, oriented, a->dense.n);
+	pairing few = mr_align_pairing(ctx, &a->sparse, &b->sparse, &b->sparse, oriented, DRAWN);
+	pairing some = mr_align_pairing(ctx, &a->sparse, &b->sparse, &b->sparse, oriented, JUDGED);
+	pairing all = mr_align_pairing(ctx, &a->dense, &b->dense, &b->sparse, oriented, a->dense.n);
 	size_t n = guess_motions(ctx, a, b, c);
 	drawn d;
 
@@ -398,15 +207,15 @@ find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_result *r
 	if (n == 0)
 		return MR_OK;
 	for (size_t i = 0; i < n; i++) {
-		MR_TRY(draw_near(ctx, &few, &b->sparse, 3 * STEP, 1.5 * STEP, ROUNDS, scale, &c[i].map, &d));
-		MR_TRY(pair(ctx, &some, &b->sparse, true, &c[i].map));
-		c[i].score = score(&some, STEP, STEP / 2);
+		MR_TRY(draw_near(ctx, &few, 3 * STEP, 1.5 * STEP, ROUNDS, scale, &c[i].map, &d));
+		MR_TRY(mr_align_pair(ctx, &some, true, &c[i].map));
+		c[i].score = mr_align_score(&some, STEP, STEP / 2);
 	}
 	qsort(c, n, sizeof *c, compare_scores);
 	*map = c[0].map;
-	MR_TRY(draw_near(ctx, &all, &b->sparse, 1.5 * STEP, 1 * STEP, LAST, scale, map, &d));
-	MR_TRY(pair(ctx, &some, &b->sparse, true, map));
-	r->score = score(&some, STEP, STEP / 2);
+	MR_TRY(draw_near(ctx, &all, 1.5 * STEP, 1 * STEP, LAST, scale, map, &d));
+	MR_TRY(mr_align_pair(ctx, &some, true, map));
+	r->score = mr_align_score(&some, STEP, STEP / 2);
 	for (size_t i = 1; i < n && r->second == 0; i++)
 		r->second = is_same(&c[0].map, &c[i].map) ? 0 : c[i].score;
 	r->overlap = d.share;
@@ -415,9 +224,8 @@ find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_result *r
 	return MR_OK;
 }
 
-/* The map between models as one between sides: their middles, their units. */
-static void
-put_map(const model *a, const model *b, const mr_affine *map, mr_align_result *r)
+void
+mr_align_put_map(const model *a, const model *b, const mr_affine *map, mr_align_result *r)
 {
 	double s = b->unit / a->unit;
 	mr_affine out = *map;
@@ -436,30 +244,31 @@ put_map(const model *a, const model *b, const mr_affine *map, mr_align_result *r
 	r->residual *= b->unit;
 }
 
-static double
-diagonal(mr_align_side s)
+mr_status
+mr_align_diagonal(mr_ctx *ctx, mr_align_side s, double *diagonal)
 {
-	return mr_box_diagonal(mr_box_of(s.m->p, s.m->nv));
+	*diagonal = mr_box_diagonal(mr_box_of(s.m->p, s.m->nv));
+	return *diagonal > 0 ? MR_OK : mr_fail(ctx, MR_EMESH, "%s: all points are at one place", s.m->name);
 }
 
 mr_status
 mr_align(mr_ctx *ctx, mr_align_side a, mr_align_side b, bool scale, mr_align_result *r)
 {
 	MR_SCOPE(ctx);
-	double of_a = diagonal(a), of_b = diagonal(b), unit = fmax(fmin(of_a, of_b), fmax(of_a, of_b) / 4);
+	double of_a, of_b, unit;
 	mr_align_result found = { 0 };
 	model from, to;
 	mr_affine map = mr_identity();
 
-	if (!(of_a > 0 && of_b > 0))
-		return mr_fail(
-		    ctx, MR_EMESH, "%s: all points are at one place", of_a > 0 ? b.m->name : a.m->name);
+	MR_TRY(mr_align_diagonal(ctx, a, &of_a));
+	MR_TRY(mr_align_diagonal(ctx, b, &of_b));
+	unit = mr_align_unit(fmin(of_a, of_b), fmax(of_a, of_b));
 	MR_TRY(mr_align_model(ctx, a, scale ? of_a : unit, &from));
 	MR_TRY(mr_align_model(ctx, b, scale ? of_b : unit, &to));
 	MR_TRY(mr_align_features(ctx, from.oriented && to.oriented, &from));
 	MR_TRY(mr_align_features(ctx, from.oriented && to.oriented, &to));
-	MR_TRY(find(ctx, &from, &to, scale, &found, &map));
-	put_map(&from, &to, &map, &found);
+	MR_TRY(mr_align_find(ctx, &from, &to, scale, &found, &map));
+	mr_align_put_map(&from, &to, &map, &found);
 	*r = found;
 	return MR_OK;
 }

@@ -16,6 +16,10 @@ typedef struct mr_align_side {
 mr_status
 mr_align(mr_ctx *ctx, mr_align_side a, mr_align_side b, bool scale, mr_align_result *r) MR_WARN_UNUSED;
 
+/* Brings each of n sides to the first that it can be joined with, by way of others; r: of each, by the pair
+ * that joins it.  Of parts that cannot be joined the largest is taken, and of that the first stays. */
+mr_status mr_align_all(mr_ctx *ctx, const mr_align_side *side, size_t n, mr_align_result *r) MR_WARN_UNUSED;
+
 /* Reports as unaligned what a motion brings to a quarter of its comparison `apart`; where somebody listens.
  * */
 mr_status

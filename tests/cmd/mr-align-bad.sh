@@ -1,7 +1,9 @@
 # Wrong command lines: exit 2 and no output; what cannot be aligned stays, with a finding.
 mr-make bumpy -n 3000 -o a.mrs
 mr-make knot -n 3000 | mr-transform --translate 9,9,9 -o b.mrs
-for wrong in '' 'a.mrs a.mrs a.mrs' '--from a,b a.mrs' '-m %x a.mrs'; do
+mr-cat a.mrs b.mrs -o two.mrs
+for wrong in '' 'a.mrs a.mrs a.mrs' '--from a,b a.mrs' '-m %x a.mrs' \
+	'--all a.mrs a.mrs' '--all --scale a.mrs' '--all -m all.txt two.mrs'; do
 	mr-align $wrong <a.mrs >out 2>err
 	echo "$wrong: exit $?, $(wc -c <out) bytes"
 	head -n 1 err

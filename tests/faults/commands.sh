@@ -53,6 +53,7 @@ try mr-split -j1 mesh.mrs
 try mr-crop -j1 --keep above:y,0.5 mesh.mrs
 try mr-fill -j1 --loops 1 cropped.mrs
 try mr-align -j1 cropped.mrs mesh.mrs
+try mr-align -j1 --all cropped.mrs
 try mr-transform -j1 --rotate 0,0,1,30 solved.mrs
 try mr-map -j1 -w made/x displaced.mrs
 try mr-map -j1 --bake points.mrs -w made/y --size 64 displaced.mrs

@@ -62,6 +62,7 @@ try - mr-transform --rotate 1,0,0,20 mesh.mrs
 try cropped.mrs mr-crop --keep below:y,0.8 mesh.mrs
 try - mr-fill cropped.mrs
 try - mr-align cropped.mrs mesh.mrs
+try - mr-align --all cropped.mrs
 try - mr-split mesh.mrs
 try - mr-cat -z mesh.mrs
 echo "$n commands"
