@@ -5,7 +5,7 @@
 
 /* ---- order ---- */
 
-void
+mr_status
 mr_glb_order(glb *w, layer *l)
 {
 	size_t n = l->v.count;
@@ -13,7 +13,7 @@ mr_glb_order(glb *w, layer *l)
 
 	for (size_t at = 0, end; at < l->model.nf; at = end) {
 		end = mr_glb_run(l, at);
-		mr_meshopt_order(l->order + 3 * at, 3 * (end - at), n);
+		MR_TRY(mr_meshopt_order(w->ctx, l->order + 3 * at, 3 * (end - at), n));
 	}
 	mr_meshopt_renumber(w->ctx, l->order, 3 * l->model.nf, n, &number);
 	for (size_t i = 0; i < n; i++) {
@@ -22,6 +22,7 @@ mr_glb_order(glb *w, layer *l)
 	}
 	l->v.vertex = vertex;
 	l->v.corner = corner;
+	return MR_OK;
 }
 
 /* ---- views ---- */

@@ -1,6 +1,8 @@
 /* Rows of vertices and indices, packed and unpacked (Kapoulkine, EXT_meshopt_compression, 2022). */
 #include "formats/gltf_meshopt.h"
 
+#include "formats/meshopt_shim.h"
+
 #include <meshoptimizer.h>
 
 bool
@@ -93,10 +95,12 @@ mr_meshopt_unpack(mr_ctx *ctx, const mr_meshopt_rows *rows, const char *filter, 
 	return MR_OK;
 }
 
-void
-mr_meshopt_order(uint32_t *corner, size_t count, size_t vertices)
+mr_status
+mr_meshopt_order(mr_ctx *ctx, uint32_t *corner, size_t count, size_t vertices)
 {
-	meshopt_optimizeVertexCache(corner, corner, count, vertices);
+	if (!mr_meshopt_cache(corner, count, vertices))
+		return mr_fail(ctx, MR_EMEM, "no memory for the order of %zu triangles", count / 3);
+	return MR_OK;
 }
 
 void

@@ -31,7 +31,7 @@ mr_status mr_meshopt_unpack(mr_ctx *ctx, const mr_meshopt_rows *rows, const char
     const unsigned char *packed, size_t bytes, unsigned char **data) MR_WARN_UNUSED;
 
 /* Orders triangles so that they pack well: `count` corners, of so many vertices. */
-void mr_meshopt_order(uint32_t *corner, size_t count, size_t vertices);
+mr_status mr_meshopt_order(mr_ctx *ctx, uint32_t *corner, size_t count, size_t vertices) MR_WARN_UNUSED;
 
 /* Numbers vertices in the order of their first corner; those without come last. */
 void mr_meshopt_renumber(mr_ctx *ctx, uint32_t *corner, size_t count, size_t vertices, uint32_t **number);

@@ -420,7 +420,7 @@ put_layer(glb *w, layer *l)
 	mr_glb_find_vertices(w, l);
 	order_faces(w, l);
 	if (w->scene->gltf.compress && m->nf)
-		mr_glb_order(w, l);
+		MR_TRY(mr_glb_order(w, l));
 	mr_glb_put_vertices(w, l);
 	mr_glb_put_poses(w, l);
 	if (m->nf == 0) {

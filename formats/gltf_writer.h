@@ -81,7 +81,7 @@ void mr_glb_put_poses(glb *w, layer *l);
 size_t mr_glb_run(const layer *l, size_t first);
 
 /* Orders vertices, and faces within primitives, so that they pack well. */
-void mr_glb_order(glb *w, layer *l);
+mr_status mr_glb_order(glb *w, layer *l) MR_WARN_UNUSED;
 
 /* Packs the views.  *all: their bytes in the second buffer, which is none but by unpacking. */
 void mr_glb_compress(glb *w, size_t *all);

@@ -16,14 +16,16 @@ done
 for suffix in xyz pts pwn; do
 	mr-export model.$suffix <points.mrs
 done
+mr-export --quantize --compress packed.glb <mesh.mrs
 gzip -k model.obj
 
-for model in model.obj.gz model.ply model.stl model.off model.glb model.xyz model.pts model.pwn; do
+for model in model.obj.gz model.ply model.stl model.off model.glb packed.glb model.xyz model.pts model.pwn; do
 	try mr-import -j1 $model
 done
 for suffix in obj.gz ply stl off glb; do
 	try mr-export -j1 -i mesh.mrs made/x.$suffix
 done
+try mr-export -j1 -i mesh.mrs --quantize --compress made/x.glb
 try mr-make -j1 torus -n 300 --noise 0.01 --seed 3
 try mr-make -j1 knot -n 300 --points 200
 try mr-cat -j1 -z mesh.mrs points.mrs
