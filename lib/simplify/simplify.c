@@ -171,6 +171,16 @@ room_at(const simplifier *s, uint32_t h)
 	return s->scale * (s->most ? fmin(s->limit, room) : s->limit);
 }
 
+/* Whether h bounds a part of two faces: one of them would be left, and half of the area. */
+static bool
+is_of_last_two(const mr_dyn *d, uint32_t h)
+{
+	uint32_t n = d->twin[mr_he_next(h)], p = d->twin[mr_he_prev(h)], e = n == MR_NONE ? p : n;
+
+	return d->twin[h] == MR_NONE && (n == MR_NONE) != (p == MR_NONE) &&
+	       d->twin[mr_he_next(e)] == MR_NONE && d->twin[mr_he_prev(e)] == MR_NONE;
+}
+
 /* Whether the ends of h can be merged; the one that lives has the higher kind of theirs. */
 static bool
 can_collapse(const simplifier *s, uint32_t h)
@@ -178,6 +188,8 @@ can_collapse(const simplifier *s, uint32_t h)
 	uint8_t *a = &s->d.kind[s->d.v[h]], *b = &s->d.kind[mr_dyn_to(&s->d, h)], kind_a = *a, kind_b = *b;
 	bool can;
 
+	if (is_of_last_two(&s->d, h))
+		return false;
 	*a = kind_a < kind_b ? kind_a : kind_b;
 	*b = kind_a < kind_b ? kind_b : kind_a;
 	can = mr_dyn_can_collapse(&s->d, h, s->mark);

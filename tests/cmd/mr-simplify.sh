@@ -91,3 +91,8 @@ echo 'blocks of a large mesh: the same for any number of threads, and no farther
 mr-make bumpy -n 60000 -o large.mrs && mr-simplify -j 1 -n 4000 large.mrs -o out.mrs && mr-simplify -j 3 -n 4000 large.mrs | cmp - out.mrs
 mr-info --json out.mrs | grep -o '"faces":[0-9]*'
 mr-compare -a mesh -b mesh large.mrs out.mrs | awk '/both, %/ { print $4 < 0.1 ? "near" : $0 }'
+echo 'two triangles side by side stay, with and without vertices in common'
+printf 'v 0 0 0\nv 0 2 0\nv 2 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 3 2 1\nf 4 6 5\n' >two.obj
+for weld in '' '--weld 0'; do
+	mr-import -q $weld two.obj | mr-simplify -q -n 1 | mr-info --json | grep -o '"faces":[0-9]*\|"area":[0-9.]*'
+done
