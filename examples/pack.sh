@@ -1,8 +1,9 @@
 #!/bin/sh
 # pack.sh -- a mesh or scan in as few bytes as give an error; usage: pack.sh MODEL OUT.mrz [ERROR]
 #
-# Tries control meshes of several sizes, each by the pipe of mr-pack(1), and one level more of the best; keeps the
-# smallest file that reaches ERROR (default 0.01%), or where none does the nearest.  Prints a line for each.
+# Tries control meshes of 300 faces, twice as many, and so on until the file grows, each by the pipe of mr-pack(1) on
+# the level that mr-sample chooses and the next; keeps the smallest file that reaches ERROR (default 0.01%), or where
+# none does the nearest.  Prints a line for each.
 # Without a model packs a bumpy sphere as bumpy.mrz.
 set -e
 work=$(mktemp -d)
@@ -28,28 +29,28 @@ else
 		mr-simplify -q "$@" "$work/wrap.mrs"
 	}
 fi
-control --stats "$work/control" | mr-fit -q -o "$work/fit.mrs"
-faces=$(figure "$work/control" faces)
 level=0 best=
-attempt() { # faces, options of mr-sample: is kept where it is the best so far
-	mr-sample -q --stats "$work/sample" "$2" "$3" "$work/fit.mrs" |
+attempt() { # options of mr-sample: kept where it is the best so far; $reached, $bytes
+	mr-sample -q --stats "$work/sample" "$@" "$work/fit.mrs" |
 	    mr-pack -q -e "$error" --stats "$work/pack" - "$work/try.mrz"
-	now="$(figure "$work/pack" error) $(figure "$work/pack" bytes)"
-	echo "$1 $(figure "$work/sample" level) $now" |
-	    awk '{ printf "%s faces, level %s: %.4f %%, %d bytes\n", $1, $2, 100 * $3, $4 }'
+	level=$(figure "$work/sample" level) bytes=$(figure "$work/pack" bytes)
+	now="$(figure "$work/pack" error) $bytes"
+	echo "$n $level $now" | awk '{ printf "%s faces, level %s: %.4f %%, %d bytes\n", $1, $2, 100 * $3, $4 }'
+	reached=$(echo "$now $want" | awk '{ print $1 <= 1.01 * $3 }')
 	if echo "$now ${best:-1 0} $want" | awk '{ limit = 1.01 * $5; a = $1 <= limit; b = $3 <= limit
 	    exit !(a && b ? $2 < $4 : a || b ? a : $1 < $3) }'; then
-		best=$now level=$(figure "$work/sample" level)
+		best=$now
 		mv "$work/try.mrz" "$work/best.mrz"
-		cp "$work/fit.mrs" "$work/best.mrs"
-		size=$1
 	fi
 }
-attempt "$faces" --refine 3
-for n in $((faces / 3)) $((faces * 2)); do
+smallest=
+for n in 300 600 1200 2400 4800 9600; do
 	control -n "$n" | mr-fit -q -o "$work/fit.mrs"
-	attempt "$n" --refine 3
+	attempt --refine 3
+	least=$bytes
+	attempt --level $((level + 1))
+	[ "$bytes" -ge "$least" ] || least=$bytes
+	[ "$reached" -eq 0 ] || [ "${smallest:-$least}" -ge "$least" ] || break
+	[ "$reached" -eq 0 ] || smallest=$least
 done
-mv "$work/best.mrs" "$work/fit.mrs"
-attempt "$size" --level $((level + 1))
 mv "$work/best.mrz" "$out"

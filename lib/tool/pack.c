@@ -3,10 +3,12 @@
 
 #include "base/options.h"
 #include "compact/packed.h"
+#include "space/bvh.h"
 #include "subdivide/displaced.h"
 
 /* The control mesh's grid is coarser than the heights, which make up for it: by so many powers of two. */
-enum { COARSER = 3, SEARCH = 6 };
+enum { COARSER = 3, SEARCH = 6, TOLD = 3 };
+enum { LOOKED_AT = 20000 }; /* faces, or points, of each surface while the number of bytes is sought */
 /* The search ends so near to the error that is asked for; and so much is allowed over what all bits give. */
 #define NEARLY 0.98
 #define AMPLE  1.1
@@ -18,6 +20,7 @@ enum { COARSER = 3, SEARCH = 6 };
 typedef struct packing {
 	mr_mesh control, target;
 	const uint8_t *crease;
+	mr_bvh *bvh; /* of target, while the number of bytes is sought */
 	mr_loop *level;
 	mr_domain domain; /* of the control mesh as it is */
 	const double *height;
@@ -201,24 +204,69 @@ heights_of(mr_ctx *ctx, const packing *k, size_t bits)
 	return height;
 }
 
-/* How far the surface that they give is from its target: the mean of both ways, or from points to the
- * surface. */
+/* The surface that so many bytes of bits give, in the arena. */
+static mr_mesh
+surface_of(mr_ctx *ctx, const packing *k, const mr_domain *d, size_t bits)
+{
+	mr_mesh surface = d->m;
+	mr_v3 *at = MR_NEW(ctx, d->m.nv, mr_v3);
+
+	mr_domain_displace(ctx, d, heights_of(ctx, k, bits), 1, at);
+	surface.p = at;
+	return surface;
+}
+
+/* How far it is from its target: the mean of both ways, or from points to the surface alone. */
 static mr_status
 measure(mr_ctx *ctx, const packing *k, const mr_domain *d, size_t bits, double *mean, double *max)
 {
 	MR_SCOPE(ctx);
 	mr_compare_opts o = MR_COMPARE_DEFAULTS;
-	mr_mesh surface = d->m;
-	mr_v3 *at = MR_NEW(ctx, d->m.nv, mr_v3);
+	mr_mesh surface = surface_of(ctx, k, d, bits);
 	mr_comparison c;
 
-	mr_domain_displace(ctx, d, heights_of(ctx, k, bits), 1, at);
-	surface.p = at;
 	o.effort = 1;
 	MR_TRY(mr_compare(ctx, &k->target, &surface, &o, &c));
 	*mean = k->target.nf ? (c.ab.mean + c.ba.mean) / 2 : c.ab.mean;
 	*max = k->target.nf ? fmax(c.ab.max, c.ba.max) : c.ab.max;
 	return MR_OK;
+}
+
+/* The mean distance from some of the faces, or points, of a mesh, by their centroids. */
+static double
+mean_from(mr_ctx *ctx, const mr_mesh *m, const mr_bvh *to)
+{
+	MR_SCOPE(ctx);
+	size_t all = m->nf ? m->nf : m->nv, step = all / LOOKED_AT + 1, n = (all - 1) / step + 1;
+	mr_v3 *p = MR_NEW(ctx, n, mr_v3), corner[3];
+	double *distance = MR_NEW(ctx, n, double), sum = 0, area = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		if (m->nf)
+			mr_corners(m, i * step, corner);
+		p[i] = m->nf ? mr_mean3(corner[0], corner[1], corner[2]) : m->p[i * step];
+	}
+	mr_bvh_distances(ctx, to, p, n, distance);
+	for (size_t i = 0; i < n; i++) {
+		double weight = m->nf ? mr_norm(mr_face_cross(m, i * step)) : 1;
+		sum += weight * distance[i];
+		area += weight;
+	}
+	return sum / area;
+}
+
+/* The same mean as measure's, nearly. */
+static double
+estimate(mr_ctx *ctx, const packing *k, const mr_domain *d, size_t bits)
+{
+	MR_SCOPE(ctx);
+	mr_mesh surface = surface_of(ctx, k, d, bits);
+	mr_bvh *bvh;
+	double there;
+
+	mr_bvh_build(ctx, &surface, &bvh);
+	there = mean_from(ctx, &k->target, bvh);
+	return k->target.nf ? (there + mean_from(ctx, &surface, k->bvh)) / 2 : there;
 }
 
 /* Mean square of what the heights of so many bytes lack. */
@@ -256,25 +304,26 @@ bits_of_lack(mr_ctx *ctx, const packing *k, const double *height, double most)
  * error is that of all bits, and a share of the square of what the heights lack: that share is measured, and
  * measured again where it gave another error.
  */
-static mr_status
-search(mr_ctx *ctx, const packing *k, const mr_domain *d, size_t *bits)
+static size_t
+search(mr_ctx *ctx, packing *k, const mr_domain *d)
 {
 	const double *height = heights_of(ctx, k, k->bits.size);
-	double own, mean, max, want, share = 0.5;
+	double own, mean, want, share = 0.5;
+	size_t bits = k->bits.size;
 
-	MR_TRY(measure(ctx, k, d, k->bits.size, &own, &max));
+	mr_bvh_build(ctx, &k->target, &k->bvh);
+	own = estimate(ctx, k, d, bits);
 	want = fmax(k->error, AMPLE * own);
-	*bits = k->bits.size;
 	for (int i = 0; i < SEARCH; i++) {
 		size_t try = bits_of_lack(ctx, k, height, (want * want - own * own) / share);
-		MR_TRY(measure(ctx, k, d, try, &mean, &max));
+		mean = estimate(ctx, k, d, try);
 		share = (mean * mean - own * own) / lack(ctx, k, height, try);
-		if (mean <= want && try < *bits)
-			*bits = try;
+		if (mean <= want && try < bits)
+			bits = try;
 		if (mean <= want && mean > NEARLY * want)
 			break;
 	}
-	return MR_OK;
+	return bits;
 }
 
 /* All bits for an error, as a share of the diagonal; by its own choice where the bytes alone are given: the
@@ -297,31 +346,50 @@ pack_for(mr_ctx *ctx, packing *k, const mr_pack_opts *o, mr_domain *d)
 	}
 }
 
-/* How many bytes of bits the options ask for. */
+/* How many bytes of bits a file has room for; SIZE_MAX where no number is asked for. */
 static mr_status
-choose_bits(mr_ctx *ctx, packing *k, const mr_domain *d, const mr_pack_opts *o, size_t *bits)
+room_for_bits(mr_ctx *ctx, const packing *k, const mr_pack_opts *o, size_t *room)
 {
 	/* with room for a longer count of bits than that of none */
 	size_t head = mr_packed_file(ctx, &k->p, &k->head, (mr_packed_bytes){ NULL, 0 }).size + 4;
 
-	*bits = k->bits.size;
-	if (o->error > 0)
-		MR_TRY(search(ctx, k, d, bits));
-	if (*bits < k->least)
-		*bits = k->least;
-	if (o->bytes == 0)
-		return MR_OK;
-	if (o->bytes < head)
-		return mr_fail(ctx, MR_ERANGE, "control: takes %zu bytes alone", head);
-	if (mr_packed_room(head, o->bytes) < *bits)
-		*bits = mr_packed_room(head, o->bytes);
+	*room = o->bytes ? mr_packed_room(head, o->bytes) : SIZE_MAX;
+	return o->bytes == 0 || o->bytes >= head
+	           ? MR_OK
+	           : mr_fail(ctx, MR_ERANGE, "control: takes %zu bytes alone", head);
+}
+
+/* How many bytes of bits the options ask for, and how far the surface is then; the search, which estimates,
+ * is told what came of it. */
+static mr_status
+choose_bits(
+    mr_ctx *ctx, packing *k, const mr_domain *d, const mr_pack_opts *o, size_t *bits, mr_pack_result *r)
+{
+	double want = k->error;
+	size_t room;
+
+	MR_TRY(room_for_bits(ctx, k, o, &room));
+	*bits = 0;
+	for (int i = 0; i < TOLD; i++) {
+		size_t before = *bits, found = o->error > 0 ? search(ctx, k, d) : k->bits.size;
+		found = found < k->least ? k->least : found;
+		*bits = found < room ? found : room;
+		if (i && *bits == before)
+			break;
+		MR_TRY(measure(ctx, k, d, *bits, &r->error, &r->error_max));
+		if (!(o->error > 0) || found > room || r->error <= want)
+			break;
+		k->error *= (1 + NEARLY) / 2 * want / r->error;
+	}
+	r->error /= k->diagonal;
+	r->error_max /= k->diagonal;
 	return MR_OK;
 }
 
 static void
 tell_if_unreached(mr_ctx *ctx, const mr_pack_opts *o, double error)
 {
-	if (o->error > 0 && o->bytes == 0 && error > 1.02 * o->error)
+	if (o->error > 0 && o->bytes == 0 && error > 1.01 * o->error)
 		mr_found(ctx, &(mr_finding){ .kind = MR_INEXACT,
 				  .layer = "displacement",
 				  .what = mr_format(ctx,
@@ -342,12 +410,10 @@ pack(mr_ctx *ctx, mr_frame *f, const mr_pack_opts *o, mr_packed_bytes *file, mr_
 	MR_TRY(get_surface(ctx, f, k));
 	snprintf(k->p.name, sizeof k->p.name, "%s", f->name);
 	MR_TRY(pack_for(ctx, k, o, &d));
-	MR_TRY(choose_bits(ctx, k, &d, o, &bits));
+	*r = (mr_pack_result){ 0, k->head.count, k->p.n, d.m.nv, 0, 0 };
+	MR_TRY(choose_bits(ctx, k, &d, o, &bits, r));
 	*file = mr_packed_file(ctx, &k->p, &k->head, (mr_packed_bytes){ k->bits.byte, bits });
-	*r = (mr_pack_result){ file->size, k->head.count, k->p.n, d.m.nv, 0, 0 };
-	MR_TRY(measure(ctx, k, &d, bits, &r->error, &r->error_max));
-	r->error /= k->diagonal;
-	r->error_max /= k->diagonal;
+	r->bytes = file->size;
 	tell_if_unreached(ctx, o, r->error);
 	tell_lost(ctx, f);
 	return MR_OK;
