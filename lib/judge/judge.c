@@ -155,7 +155,7 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 	g.then = control;
 	MR_TRY(surface_of(ctx, after, "control", &control));
 	g.now = control.p;
-	MR_TRY(read_regions(ctx, after, "control", control.nv, &g.region));
+	MR_TRY(mr_layer_region(ctx, after, "control", control.nv, &g.region));
 	regions_of_levels(ctx, &d, g.region, &g.surface_region);
 	mr_boundary_label(ctx, mesh, &boundary, &open);
 	mr_judge_pose(ctx, &m, &g, !open);
