@@ -167,7 +167,7 @@ put_accessor(glb *w, const form *f, size_t view, size_t n)
 	static const char *const types[] = { "", "SCALAR", "VEC2", "VEC3", "VEC4" };
 
 	return mr_glb_push(w, "accessors",
-	    json_pack("{s:o*, s:I, s:o*, s:I, s:s}", "bufferView", index_of(view), "componentType",
+	    json_pack("{s:o*, s:I, s:o*, s:I, s:s}", "bufferView", index_of(w, view), "componentType",
 		number(f->kind), "normalized", f->normalized ? json_true() : NULL, "count", number(n), "type",
 		types[f->width]));
 }
@@ -526,7 +526,7 @@ mr_glb_put_poses(glb *w, layer *l)
 		size_t position = put_motion(w, l, node->target[i].p);
 		size_t normal = turned ? put_turn(w, l, &node->target[i]) : MR_UNKNOWN;
 		mr_glb_append(w, l->targets,
-		    json_pack("{s:I, s:o*}", "POSITION", number(position), "NORMAL", index_of(normal)));
+		    json_pack("{s:I, s:o*}", "POSITION", number(position), "NORMAL", index_of(w, normal)));
 	}
 	if (node->targets)
 		put_weights(w, node->targets, &l->sampler);

@@ -98,8 +98,8 @@ mr_glb_new_view(glb *w, size_t count, size_t stride, size_t target, mr_view_kind
 	w->bytes += padded;
 	return mr_glb_push(w, "bufferViews",
 	    json_pack("{s:i, s:I, s:I, s:o*, s:o*}", "buffer", 0, "byteOffset", number(w->bytes - padded),
-		"byteLength", number(bytes), "byteStride", index_of(rows ? stride : MR_UNKNOWN), "target",
-		index_of(target)));
+		"byteLength", number(bytes), "byteStride", index_of(w, rows ? stride : MR_UNKNOWN), "target",
+		index_of(w, target)));
 }
 
 size_t
@@ -172,7 +172,7 @@ put_file(glb *w, const char *end, const void *data, size_t bytes, json_t **uri)
 			mr_text_add(&text, "%%%02X", (unsigned)(unsigned char)name[i]);
 	}
 	mr_text_add(&text, "%s", end);
-	*uri = json_string(text.s);
+	*uri = mr_glb_made(w, true, json_string(text.s));
 	return MR_OK;
 }
 
@@ -195,7 +195,7 @@ put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 		memcpy(to, b->data, b->size);
 	}
 	image = mr_glb_push(w, "images",
-	    json_pack("{s:o*, s:o*, s:s, s:s}", "uri", uri, "bufferView", index_of(view), "mimeType", type,
+	    json_pack("{s:o*, s:o*, s:s, s:s}", "uri", uri, "bufferView", index_of(w, view), "mimeType", type,
 		"name", mr_file_name(file)));
 	*texture = mr_glb_push(w, "textures", json_pack("{s:I}", "source", number(image)));
 	return MR_OK;
@@ -227,14 +227,16 @@ embed(glb *w, const char *file, size_t *texture)
 
 /* A reference to a texture, for "o*". */
 static json_t *
-shows(size_t texture)
+shows(glb *w, size_t texture)
 {
-	return texture != MR_UNKNOWN ? json_pack("{s:I}", "index", number(texture)) : NULL;
+	bool is = texture != MR_UNKNOWN;
+
+	return mr_glb_made(w, is, is ? json_pack("{s:I}", "index", number(texture)) : NULL);
 }
 
 /* What says nothing else is of metal to the format, and seen from one side. */
 static json_t *
-new_material(const mr_material *look, const char *name, size_t bytes, size_t texture, size_t normals)
+new_material(glb *w, const mr_material *look, const char *name, size_t bytes, size_t texture, size_t normals)
 {
 	const double *light = look->emission;
 	bool shines = light[0] > 0 || light[1] > 0 || light[2] > 0;
@@ -246,10 +248,10 @@ new_material(const mr_material *look, const char *name, size_t bytes, size_t tex
 	}
 	return json_pack("{s:{s:[f, f, f, f], s:f, s:f, s:o*}, s:b, s:s*, s:o*, s:o*, s:o*}",
 	    "pbrMetallicRoughness", "baseColorFactor", c[0], c[1], c[2], look->opacity, "metallicFactor",
-	    look->metal, "roughnessFactor", look->roughness, "baseColorTexture", shows(texture),
+	    look->metal, "roughnessFactor", look->roughness, "baseColorTexture", shows(w, texture),
 	    "doubleSided", 1, "alphaMode", look->opacity < 1 ? "BLEND" : NULL, "emissiveFactor",
-	    shines ? json_pack("[f, f, f]", e[0], e[1], e[2]) : NULL, "normalTexture", shows(normals), "name",
-	    bytes ? json_stringn(name, bytes) : NULL);
+	    mr_glb_made(w, shines, shines ? json_pack("[f, f, f]", e[0], e[1], e[2]) : NULL), "normalTexture",
+	    shows(w, normals), "name", mr_glb_made(w, bytes > 0, bytes ? json_stringn(name, bytes) : NULL));
 }
 
 static mr_status
@@ -268,7 +270,7 @@ put_materials(glb *w, layer *l)
 		MR_TRY(embed(w, look[i].file, &texture));
 		MR_TRY(embed(w, look[i].normals, &normals));
 		l->materials[i] = mr_glb_push(
-		    w, "materials", new_material(&look[i], name[i], bytes, texture, normals));
+		    w, "materials", new_material(w, &look[i], name[i], bytes, texture, normals));
 	}
 	return MR_OK;
 }
@@ -281,7 +283,7 @@ material_of(glb *w, const layer *l, size_t f)
 		return l->materials[l->material.of[f]];
 	if (w->unnamed == MR_UNKNOWN)
 		w->unnamed = mr_glb_push(
-		    w, "materials", new_material(&mr_material_plain, NULL, 0, MR_UNKNOWN, MR_UNKNOWN));
+		    w, "materials", new_material(w, &mr_material_plain, NULL, 0, MR_UNKNOWN, MR_UNKNOWN));
 	return w->unnamed;
 }
 
@@ -289,13 +291,13 @@ material_of(glb *w, const layer *l, size_t f)
 
 /* A primitive of the layer's vertices. */
 static json_t *
-new_primitive(const layer *l, bool texcoords, size_t indices, size_t material, size_t mode)
+new_primitive(glb *w, const layer *l, bool texcoords, size_t indices, size_t material, size_t mode)
 {
 	return json_pack("{s:{s:I, s:o*, s:o*, s:o*}, s:o*, s:o*, s:o*, s:o*}", "attributes", "POSITION",
-	    number(l->position), "NORMAL", index_of(l->normal), "TEXCOORD_0",
-	    index_of(texcoords ? l->texcoord : MR_UNKNOWN), "COLOR_0", index_of(l->color), "targets",
-	    filled(l->targets), "indices", index_of(indices), "material", index_of(material), "mode",
-	    index_of(mode));
+	    number(l->position), "NORMAL", index_of(w, l->normal), "TEXCOORD_0",
+	    index_of(w, texcoords ? l->texcoord : MR_UNKNOWN), "COLOR_0", index_of(w, l->color), "targets",
+	    filled(l->targets), "indices", index_of(w, indices), "material", index_of(w, material), "mode",
+	    index_of(w, mode));
 }
 
 /* The primitive of faces `first` to `last` in the order; it has texture coordinates where a corner has some.
@@ -313,7 +315,7 @@ put_primitive(glb *w, const layer *l, size_t first, size_t last, json_t *primiti
 	    json_pack("{s:I, s:I, s:I, s:s}", "bufferView", number(view), "componentType",
 		number(mr_index_kind(l->v.count)), "count", number(count), "type", "SCALAR"));
 	mr_glb_append(w, primitives,
-	    new_primitive(l, texcoords, accessor, material_of(w, l, l->face[first]), MR_UNKNOWN));
+	    new_primitive(w, l, texcoords, accessor, material_of(w, l, l->face[first]), MR_UNKNOWN));
 }
 
 /* Where the grid of places lies. */
@@ -424,8 +426,8 @@ put_layer(glb *w, layer *l)
 	mr_glb_put_vertices(w, l);
 	mr_glb_put_poses(w, l);
 	if (m->nf == 0) {
-		put_node(
-		    w, l, l->name, json_pack("[o]", new_primitive(l, true, MR_UNKNOWN, MR_UNKNOWN, POINTS)));
+		put_node(w, l, l->name,
+		    json_pack("[o]", new_primitive(w, l, true, MR_UNKNOWN, MR_UNKNOWN, POINTS)));
 		return MR_OK;
 	}
 	MR_TRY(put_materials(w, l));

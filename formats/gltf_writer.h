@@ -116,11 +116,19 @@ mr_index_kind(size_t n)
 	return n <= UINT16_MAX ? MR_GLTF_UNSIGNED_SHORT : MR_GLTF_UNSIGNED_INT;
 }
 
+/* What is there if it is wanted, for "o*", which leaves out what there was no memory for, too. */
+static inline json_t *
+mr_glb_made(glb *w, bool wanted, json_t *json)
+{
+	w->failed |= wanted && !json;
+	return json;
+}
+
 /* An index for "o*": NULL where there is none. */
 static inline json_t *
-index_of(size_t n)
+index_of(glb *w, size_t n)
 {
-	return n != MR_UNKNOWN ? json_integer((json_int_t)n) : NULL;
+	return mr_glb_made(w, n != MR_UNKNOWN, n != MR_UNKNOWN ? json_integer((json_int_t)n) : NULL);
 }
 
 /* A number for "I". */
