@@ -77,7 +77,7 @@ RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DA
 # V=1 shows the commands.
 say = $(if $(V),,@echo "  $(1) $@";)
 
-all: $(TOOLS)
+all: $(TOOLS) $(BUILD)/web/mrz.js $(BUILD)/web/mrz.wasm
 
 $(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd findings options place \
 		signals) $(BUILD)/libmr.a
@@ -105,7 +105,17 @@ $(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
 	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 \
 		$(if $(findstring edit,$<)$(findstring rotation,$<),-O3,-Os) -ffunction-sections -fno-math-errno \
 		-ffp-contract=off $(WARN) $(INCLUDE) -MMD -MP -c -o $@ $<
+# Packed surfaces for other people's pages.
+MRZ     := $(patsubst %,$(BUILD)/wasm/%.o,formats/web/mrz.c formats/page/library/system.c $(addprefix lib/, \
+	$(addsuffix .c,base/ctx mesh/edges mesh/mesh $(addprefix compact/,bit_planes coder control_code lifting \
+		packed packed_fields) $(addprefix subdivide/,displaced loop loop_limit))))
+$(BUILD)/web/mrz.wasm: $(MRZ)
+$(BUILD)/web/mrz.js: formats/web/mrz.js
+	@mkdir -p $(@D)
+	cp $< $@
+
 $(BUILD)/page/library.wasm: $(WASM)
+$(BUILD)/page/library.wasm $(BUILD)/web/mrz.wasm:
 	@mkdir -p $(@D)
 	$(call say,link   )clang --target=wasm32-wasi --sysroot=$(WASI) -nostartfiles \
 		-Wl,--no-entry,--gc-sections,--strip-all,--export=malloc,--export=free \

@@ -29,14 +29,15 @@ completions:
 # One mode for every file, whatever the umask says.
 TO    := $(DESTDIR)$(PREFIX)
 NAMES := $(notdir $(TOOLS))
-install: $(TOOLS) $(BUILD)/$(SONAME) completions
-	install -d $(addprefix $(TO)/,bin include share/man/man1 share/man/man5 share/man/man7) \
+install: $(TOOLS) $(BUILD)/$(SONAME) $(BUILD)/web/mrz.js $(BUILD)/web/mrz.wasm completions
+	install -d $(addprefix $(TO)/,bin include share/mr/web share/man/man1 share/man/man5 share/man/man7) \
 		$(addprefix $(DESTDIR),$(BASHDIR) $(ZSHDIR) $(FISHDIR) $(LIBDIR)/pkgconfig)
 	install $(TOOLS) $(wildcard $(BUILD)/mpi/mr-solve-mpi) $(TO)/bin
 	for n in 1 5 7; do install -m 644 man/*.$$n $(TO)/share/man/man$$n || exit; done
 	install -m 644 $(BUILD)/completions/bash/* $(DESTDIR)$(BASHDIR)
 	install -m 644 $(BUILD)/completions/zsh/* $(DESTDIR)$(ZSHDIR)
 	install -m 644 $(BUILD)/completions/fish/* $(DESTDIR)$(FISHDIR)
+	install -m 644 $(BUILD)/web/mrz.js $(BUILD)/web/mrz.wasm $(TO)/share/mr/web
 	install -m 644 lib/mr.h $(TO)/include
 	install -m 644 $(BUILD)/libmr.a $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libmr.so
@@ -47,6 +48,7 @@ uninstall:
 		$(foreach n,1 5 7,$(addprefix $(TO)/share/man/man$n/,$(notdir $(wildcard man/*.$n))))
 	rm -f $(addprefix $(DESTDIR)$(BASHDIR)/,$(NAMES)) $(addprefix $(DESTDIR)$(ZSHDIR)/_,$(NAMES)) \
 		$(patsubst %,$(DESTDIR)$(FISHDIR)/%.fish,$(NAMES))
+	rm -f $(TO)/share/mr/web/mrz.js $(TO)/share/mr/web/mrz.wasm
 	rm -f $(TO)/include/mr.h $(addprefix $(DESTDIR)$(LIBDIR)/,libmr.a $(SONAME) libmr.so pkgconfig/mr.pc)
 
 clean:
