@@ -9,7 +9,7 @@
 NODES   ?= 20000
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
 LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(if $(shell command -v $(MPICC)),,$(MPI)),$(wildcard lib/*/*.c \
-		formats/*.c formats/page/*/*.c cmd/*.c)))
+		formats/*.c formats/page/*/*.c formats/web/*.c cmd/*.c)))
 lint: $(BUILD)/lint/cppcheck $(BUILD)/lint/eslint $(LINT)
 
 $(patsubst %,$(BUILD)/lint/%,$(MPI)): INCLUDE += $$(printf " -isystem %s" $$($(MPICC) --showme:incdirs))
@@ -27,7 +27,7 @@ $(BUILD)/lint/cppcheck: tests/lint/cppcheck.txt $(HEADERS) $(LINT:$(BUILD)/lint/
 		--suppressions-list=tests/lint/cppcheck.txt --error-exitcode=1 lib formats cmd && touch $@
 
 # Debian's modules for Node, which another Node looks for elsewhere.
-$(BUILD)/lint/eslint: $(filter %.js,$(PAGE)) tests/lint/eslint.json | setup
+$(BUILD)/lint/eslint: $(filter %.js,$(PAGE)) formats/web/mrz.js tests/lint/eslint.json | setup
 	@mkdir -p $(@D)
 	$(call say,eslint )NODE_PATH=/usr/share/nodejs:/usr/lib/nodejs eslint -f unix --no-eslintrc -c \
 		tests/lint/eslint.json $(filter %.js,$^) && touch $@

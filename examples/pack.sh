@@ -2,7 +2,7 @@
 # pack.sh -- a mesh or scan in as few bytes as give an error; usage: pack.sh MODEL OUT.mrz [ERROR]
 #
 # Tries control meshes of 300 faces, twice as many, and so on until the file grows, each by the pipe of mr-pack(1) on
-# the level that mr-sample chooses and the next; keeps the smallest file that reaches ERROR (default 0.01%), or where
+# the level that mr-sample chooses and on finer ones; keeps the smallest file that reaches ERROR (default 0.01%), or where
 # none does the nearest.  Prints a line for each.
 # Without a model packs a bumpy sphere as bumpy.mrz.
 set -e
@@ -47,10 +47,15 @@ smallest=
 for n in 300 600 1200 2400 4800 9600; do
 	control -n "$n" | mr-fit -q -o "$work/fit.mrs"
 	attempt --refine 3
-	least=$bytes
-	attempt --level $((level + 1))
-	[ "$bytes" -ge "$least" ] || least=$bytes
-	[ "$reached" -eq 0 ] || [ "${smallest:-$least}" -ge "$least" ] || break
-	[ "$reached" -eq 0 ] || smallest=$least
+	least= more=0
+	while
+		[ "$reached" -eq 0 ] || [ "$bytes" -ge "${least:-$((bytes + 1))}" ] || least=$bytes
+		[ $more -eq 0 ] || [ "$reached" -eq 0 -a $more -lt 3 ]
+	do
+		more=$((more + 1))
+		attempt --level $((level + 1))
+	done
+	[ -z "$least" ] || [ "${smallest:-$least}" -ge "$least" ] || break
+	smallest=${least:-$smallest}
 done
 mv "$work/best.mrz" "$out"

@@ -31,11 +31,12 @@ class Surface {
 		const positions = run.surface_positions(at, level), n = run.surface_vertices(at, level);
 		const copy = (Type, from, length) => new Type(run.memory.buffer, from >>> 0, length).slice();
 		const colors = run.surface_colors(at);
+		const triangles = run.surface_triangles(at, level);
 		return {
 			positions: copy(Float64Array, positions, 3 * n),
 			normals: copy(Float64Array, run.surface_normals(at), 3 * n),
 			colors: colors ? copy(Uint8Array, colors, 4 * n) : null,
-			triangles: copy(Uint32Array, run.surface_triangles(at, level), 3 * run.surface_faces(at, level)),
+			triangles: copy(Uint32Array, triangles, 3 * run.surface_faces(at, level)),
 		};
 	}
 

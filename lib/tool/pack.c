@@ -6,8 +6,9 @@
 #include "space/bvh.h"
 #include "subdivide/displaced.h"
 
-/* The control mesh's grid is coarser than the heights, which make up for it: by so many powers of two. */
-enum { COARSER = 3, SEARCH = 6, TOLD = 3 };
+/* The control mesh's grid is coarser than the heights, which make up for it, by so many powers of two; but
+ * not along boundaries and creases. */
+enum { COARSER = 6, COARSER_AT_CURVES = 2, SEARCH = 6, TOLD = 3 };
 enum { LOOKED_AT = 20000 }; /* faces, or points, of each surface while the number of bytes is sought */
 /* The search ends so near to the error that is asked for; and so much is allowed over what all bits give. */
 #define NEARLY 0.98
@@ -332,13 +333,14 @@ static mr_status
 pack_for(mr_ctx *ctx, packing *k, const mr_pack_opts *o, mr_domain *d)
 {
 	double error = o->error > 0 ? o->error : COARSEST;
+	bool curves = k->crease || mr_loop_boundary(&k->level[0]);
 
 	k->diagonal = mr_box_diagonal(mr_box_of(k->target.p, k->target.nv));
 	for (;; error /= 4) {
 		mr_mark mark = mr_mark_take(ctx);
 		k->error = error * k->diagonal;
 		k->p.unit = ilogb(k->error) - 1;
-		k->p.step = k->p.unit + COARSER;
+		k->p.step = k->p.unit + (curves ? COARSER_AT_CURVES : COARSER);
 		MR_TRY(pack_all(ctx, k, d));
 		if (o->error > 0 || k->bits.size > o->bytes || error < FINEST)
 			return MR_OK;
