@@ -1,9 +1,9 @@
 #!/bin/sh
 # pack.sh -- a mesh or scan in as few bytes as give an error; usage: pack.sh MODEL OUT.mrz [ERROR]
 #
-# Tries control meshes of 300 faces, twice as many, and so on until the file grows, each by the pipe of mr-pack(1) on
-# the level that mr-sample chooses and on finer ones; keeps the smallest file that reaches ERROR (default 0.01%), or where
-# none does the nearest.  Prints a line for each.
+# Tries control meshes of 300 faces, twice as many, and so on until the file grows, each by the pipe of mr-pack(1)
+# on the level that mr-sample chooses and on finer ones; keeps the smallest file that reaches ERROR (default 0.01%),
+# or where none does the nearest.  Prints a line for each.
 # Without a model packs a bumpy sphere as bumpy.mrz.
 set -e
 work=$(mktemp -d)
