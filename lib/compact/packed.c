@@ -190,13 +190,13 @@ get_number(input *in)
 }
 
 /* A number up to `most`. */
-static uint64_t
-get_below(input *in, uint64_t most)
+static size_t
+get_below(input *in, size_t most)
 {
 	uint64_t x = get_number(in);
 
 	in->bad |= x > most;
-	return x > most ? 0 : x;
+	return x > most ? 0 : (size_t)x;
 }
 
 static int64_t
@@ -226,11 +226,12 @@ static mr_status
 get_head(mr_ctx *ctx, input *in, mr_packed *p, size_t *total)
 {
 	uint64_t flags = get_below(in, CREASES | COLORS | OPACITY),
-		 most = (uint64_t)(in->size + FEW) * MOST_A_BYTE;
+		 most = (uint64_t)(in->size + FEW) * MOST_A_BYTE, vertices = UINT32_MAX / 2,
+		 faces = UINT32_MAX / 6;
 
 	*p = (mr_packed){ .fields = flags & OPACITY ? 5 : flags & COLORS ? 4 : 1 };
-	p->control.nv = get_below(in, most < UINT32_MAX / 2 ? most : UINT32_MAX / 2);
-	p->control.nf = get_below(in, most < UINT32_MAX / 6 ? most : UINT32_MAX / 6);
+	p->control.nv = get_below(in, (size_t)(most < vertices ? most : vertices));
+	p->control.nf = get_below(in, (size_t)(most < faces ? most : faces));
 	p->control.crease = flags & CREASES ? &some_crease : NULL;
 	p->n = get_below(in, MR_LEVEL_MAX);
 	p->step = (int)get_signed(in, 1000);
