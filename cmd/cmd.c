@@ -686,14 +686,14 @@ leave_out(cmd *c)
 	c->state->failed++;
 }
 
-mr_status
-cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand))
+static mr_status
+read_operands(cmd *c)
 {
 	size_t count = c->operand_count ? c->operand_count : 1;
 
 	for (size_t i = 0; i < count; i++) {
 		MR_SCOPE(&c->ctx);
-		mr_status status = one(c, c->operand_count ? c->operands[i] : "-");
+		mr_status status = c->tool->source(c, c->operand_count ? c->operands[i] : "-");
 		if (status < 0 && (!c->keep_going || status == MR_EUSAGE))
 			return status;
 		if (status < 0) {
@@ -902,7 +902,7 @@ run(cmd *c, int argc, char **argv, int *code)
 		open_writer(c);
 	begin_frame(c, NULL);
 	if (tool->source)
-		MR_TRY(tool->source(c));
+		MR_TRY(read_operands(c));
 	else
 		read_streams(c);
 	*code = account(c);

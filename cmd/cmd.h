@@ -41,8 +41,10 @@ typedef struct cmd_tool {
 	mr_status (*frame)(cmd *c, mr_frame *f);
 	const cmd_field *figures; /* of c->result, which `frame` fills; NULL: it has none */
 
-	/* A source, instead of `frame`: makes and sends frames itself, by cmd_send. */
-	mr_status (*source)(cmd *c);
+	/* A source, instead of `frame`: makes frames of an operand, of each in turn ("-" where there are
+	 * none), and sends them by cmd_send.  Its arena ends with the call; with -k one that fails is left
+	 * out. */
+	mr_status (*source)(cmd *c, const char *operand);
 
 	/* After the last frame; may be NULL. */
 	mr_status (*finish)(cmd *c);
@@ -112,10 +114,6 @@ mr_status cmd_send(cmd *c, const mr_frame *f);
 
 /* For finish, of a tool that `keeps`: works on a kept frame and sends it, as if it were read then. */
 mr_status cmd_send_kept(cmd *c, mr_frame *f, mr_status (*work)(cmd *c, mr_frame *f));
-
-/* A source that makes a frame of each operand ("-" where there are none): calls `one` for each, in an arena
- * of its own; with -k one that fails is reported and left out. */
-mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand));
 
 /* A figure of the frame at work, for --stats. */
 void cmd_figure(cmd *c, const char *name, double value);

@@ -46,16 +46,10 @@ import(cmd *c, const char *path)
 	return cmd_send(c, f);
 }
 
-static mr_status
-import_all(cmd *c)
-{
-	return cmd_each_operand(c, import);
-}
-
 const cmd_tool cmd_this = {
 	.summary = "read models from files",
 	.operands = "[FILE...] [OUT.mrs]",
 	.options = table,
 	.prepare = check,
-	.source = import_all,
+	.source = import,
 };

@@ -49,10 +49,11 @@ prepare(cmd *c)
 }
 
 static mr_status
-make(cmd *c)
+make(cmd *c, const char *shape)
 {
 	mr_frame *f;
 
+	(void)shape; /* choose_solid has read it */
 	opts.seed = seed;
 	MR_TRY(mr_make(&c->ctx, &opts, &f));
 	return cmd_send(c, f);

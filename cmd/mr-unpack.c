@@ -62,17 +62,11 @@ unpack(cmd *c, const char *path)
 	return mr_file_bytes_end(&file, mr_prefix(&c->ctx, send_levels(c, &file), "%s", path));
 }
 
-static mr_status
-unpack_all(cmd *c)
-{
-	return cmd_each_operand(c, unpack);
-}
-
 const cmd_tool cmd_this = {
 	.summary = "read packed surfaces",
 	.operands = "[FILE...] [OUT.mrs]",
 	.options = table,
 	.prepare = check,
-	.source = unpack_all,
+	.source = unpack,
 	.fixed_layers = true,
 };
