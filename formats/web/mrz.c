@@ -10,13 +10,14 @@ typedef struct surface {
 	mr_packed p;
 	mr_packed_bytes bits;
 	size_t missing;
+	mr_mark opened; /* meshes lie above it, one at a time */
 	mr_v3 *at, *normal;
 	uint8_t (*color)[4];
 	mr_status status;
 } surface;
 
-/* Opens the first bytes of a file, or all of them: malloc's, and from now on its own.  NULL where there is no
- * memory; surface_error says what is wrong. */
+/* Opens a file, or its first bytes, which malloc gave and surface_close frees.  NULL: out of memory;
+ * surface_error returns any other failure. */
 MR_EXPORT(surface_open)
 surface *
 surface_open(const unsigned char *byte, size_t size)
@@ -27,6 +28,7 @@ surface_open(const unsigned char *byte, size_t size)
 		return NULL;
 	mr_ctx_init(&s->ctx, 1);
 	s->status = mr_packed_open(&s->ctx, (mr_packed_bytes){ byte, size }, &s->p, &s->bits, &s->missing);
+	s->opened = mr_mark_take(&s->ctx);
 	return s;
 }
 
@@ -74,17 +76,22 @@ surface_triangles(const surface *s, size_t level)
 	return s->p.level[level].t;
 }
 
-/* The surface on a level: its vertices, three numbers each; its normals and colours are those below. */
+/* Makes the surface of a level and returns its vertices, three numbers each; the two functions below return
+ * its normals and colours.  The next call ends all three. */
 MR_EXPORT(surface_positions)
 const mr_v3 *
 surface_positions(surface *s, size_t level)
 {
 	size_t nv = s->p.level[level].nv;
-	mr_v3 *control = MR_NEW(&s->ctx, s->p.control.nv, mr_v3);
-	mr_mesh m = { "control", control, s->p.control.t, s->p.control.nv, s->p.control.nf };
-	double *height = MR_NEW(&s->ctx, nv, double);
+	mr_mesh m = { "control", NULL, s->p.control.t, s->p.control.nv, s->p.control.nf };
+	mr_v3 *control;
+	double *height;
 	mr_domain domain;
 
+	mr_mark_release(&s->ctx, s->opened);
+	control = MR_NEW(&s->ctx, s->p.control.nv, mr_v3);
+	height = MR_NEW(&s->ctx, nv, double);
+	m.p = control;
 	mr_packed_positions(&s->p, control);
 	mr_packed_read_fields(&s->ctx, &s->p, s->bits, level);
 	mr_packed_heights(&s->p, level, height);

@@ -56,7 +56,7 @@ export class Mrz {
 		return new Mrz((await WebAssembly.instantiate(bytes)).instance.exports);
 	}
 
-	/* Of all of a file, or its first bytes. */
+	/* Opens a file, or its first bytes. */
 	open(file) {
 		const { run } = this, bytes = run.malloc(Math.max(file.length, 1));
 		if (!bytes)
