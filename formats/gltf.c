@@ -75,7 +75,7 @@ needs(const mr_gltf *g, const char *extension)
 	    g->ctx, MR_EFORMAT, "the file needs the extension %.60s, which is not read", extension);
 }
 
-/* What changes no place of a vertex, or is read, may be required. */
+/* Extensions a file may require: those that are read here, and those that move no vertex. */
 static mr_status
 check_extensions(const mr_gltf *g)
 {

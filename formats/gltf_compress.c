@@ -34,7 +34,7 @@ typedef struct packed {
 	size_t all; /* of the views that are packed, unpacked */
 } packed;
 
-/* Where the bytes now are. */
+/* Appends the bytes, padded to 4; returns their offset. */
 static size_t
 add_bytes(glb *w, packed *p, const unsigned char *data, size_t bytes)
 {

@@ -24,7 +24,7 @@ make_accessor(
 	return MR_OK;
 }
 
-/* What shares of a type's range are where Draco does not say that they are. */
+/* Scales integers of a normalized accessor to [-1, 1] or [0, 1]: Draco has not marked them as normalized. */
 static void
 share(const json_t *accessor, size_t n, float *x)
 {

@@ -35,7 +35,7 @@ mr_meshopt_pack(mr_ctx *ctx, const mr_meshopt_rows *rows, const void *data, unsi
 		*packed = mr_alloc(ctx, most, 1);
 		return meshopt_encodeVertexBuffer(*packed, most, data, n, rows->stride);
 	}
-	meshopt_encodeIndexVersion(1); /* that of the extension */
+	meshopt_encodeIndexVersion(1); /* the extension uses version 1 */
 	if (rows->mode == MR_MESHOPT_TRIANGLES) {
 		most = meshopt_encodeIndexBufferBound(n, UINT32_MAX);
 		*packed = mr_alloc(ctx, most, 1);

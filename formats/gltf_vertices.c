@@ -233,7 +233,8 @@ put_sparse(glb *w, layer *l, const form *f)
 	return accessor;
 }
 
-/* What a pose does, l->x, as sparse rows where these are smaller.  They may have no bytes between them. */
+/* Writes the displacements l->x of a pose, as a sparse accessor where that is smaller; its views are packed
+ * tightly. */
 static size_t
 put_changes(glb *w, layer *l, const form *f)
 {
@@ -513,7 +514,7 @@ put_weights(glb *w, size_t targets, size_t *sampler)
 	    w, w->samplers, json_pack("{s:I, s:I}", "input", number(input), "output", number(output)));
 }
 
-/* Of normals only where every pose has some. */
+/* Writes the poses as morph targets; normals too if every pose has them. */
 void
 mr_glb_put_poses(glb *w, layer *l)
 {

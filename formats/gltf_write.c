@@ -318,7 +318,7 @@ put_primitive(glb *w, const layer *l, size_t first, size_t last, json_t *primiti
 	    new_primitive(w, l, texcoords, accessor, material_of(w, l, l->face[first]), MR_UNKNOWN));
 }
 
-/* Where the grid of places lies. */
+/* Gives the node the origin and step of the grid of quantized positions. */
 static void
 place_node(glb *w, const layer *l, json_t *node)
 {
@@ -452,7 +452,7 @@ node_name(mr_ctx *ctx, const mr_scene *scene, const mr_scene_node *n)
 	    ctx, "%s%s%s", frames ? n->frame : "", frames && layers ? ": " : "", layers ? n->layer : "");
 }
 
-/* What a reader has to know beyond the format. */
+/* Names an extension that readers must support. */
 static void
 need_extension(glb *w, const char *name)
 {

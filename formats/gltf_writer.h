@@ -7,7 +7,7 @@
 #include "formats/model.h"
 #include "mesh/creases.h"
 
-/* What lies in the second chunk. */
+/* The content of a range of the binary chunk. */
 typedef enum mr_view_kind { MR_VIEW_BYTES, MR_VIEW_ROWS, MR_VIEW_INDICES, MR_VIEW_TRIANGLES } mr_view_kind;
 
 typedef struct mr_gltf_view {
@@ -77,7 +77,7 @@ void mr_glb_find_vertices(glb *w, layer *l);
 void mr_glb_put_vertices(glb *w, layer *l);
 void mr_glb_put_poses(glb *w, layer *l);
 
-/* Where the run of faces that can be of one primitive ends, in the order. */
+/* The end of the run of faces, in l->order, that can share a primitive. */
 size_t mr_glb_run(const layer *l, size_t first);
 
 /* Orders vertices, and faces within primitives, so that they pack well. */
@@ -116,7 +116,7 @@ mr_index_kind(size_t n)
 	return n <= UINT16_MAX ? MR_GLTF_UNSIGNED_SHORT : MR_GLTF_UNSIGNED_INT;
 }
 
-/* What is there if it is wanted, for "o*", which leaves out what there was no memory for, too. */
+/* Passes json on to "o*", which skips NULL; notes a failure if NULL came of a lack of memory. */
 static inline json_t *
 mr_glb_made(glb *w, bool wanted, json_t *json)
 {

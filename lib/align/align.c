@@ -180,7 +180,7 @@ choose(mr_ctx *ctx, const model *a, const model *b, bool oriented, candidate *c,
 
 /* ---- all of it ---- */
 
-/* Of two sides the one onto the other. */
+/* Aligns one side with the other. */
 static mr_status
 draw_near(
     mr_ctx *ctx, pairing *w, double from, double to, size_t rounds, bool scale, mr_affine *map, drawn *d)

@@ -45,7 +45,7 @@ mr_align_pair(mr_ctx *ctx, pairing *w, bool exactly, const mr_affine *map)
 	return MR_OK;
 }
 
-/* What a pair is. */
+/* The partner of a point on the other side. */
 typedef struct partner {
 	mr_v3 plane;   /* its normal, between both */
 	double off;    /* from b's point along it */
@@ -88,7 +88,7 @@ mr_align_score(const pairing *w, double reach, double limit)
 
 /* ---- points to planes ---- */
 
-/* What the pairs ask of the motions: rows of J x = off, by weights. */
+/* The weighted rows J x = off of the least-squares system. */
 typedef struct equations {
 	size_t n; /* unknowns */
 	double *a, *x;

@@ -16,14 +16,14 @@ typedef struct pairing {
 	uint32_t *of, *got;
 } pairing;
 
-/* What a round of drawing near found. */
+/* The result of an iteration. */
 typedef struct drawn {
 	double rms;   /* of distances to planes, weighted */
 	double share; /* of the points that have a partner */
 	double moved; /* by the round's step */
 } drawn;
 
-/* Of side 1 onto side 0, unless the caller changes that. */
+/* From side 1 to side 0, unless the caller changes that. */
 pairing mr_align_pairing(
     mr_ctx *ctx, const samples *a, const samples *b, const samples *cells, bool oriented, size_t n);
 
@@ -33,7 +33,7 @@ mr_status mr_align_pair(mr_ctx *ctx, pairing *w, bool exactly, const mr_affine *
 /* The share of the points on the other side: each by its distance from the plane and by the normals. */
 double mr_align_score(const pairing *w, double reach, double limit);
 
-/* Of a rotation and translation. */
+/* The inverse of a rotation and translation. */
 mr_affine mr_align_inverse(const mr_affine *t);
 
 /* Rounds of pairing and stepping, within a reach that falls from `from` to `to`, until all sides rest.
@@ -45,10 +45,10 @@ mr_status mr_align_draw_near(mr_ctx *ctx, pairing *w, size_t pairings, mr_affine
 mr_status mr_align_find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_result *r,
     mr_affine *map) MR_WARN_UNUSED;
 
-/* That between models as one between sides: their middles, their units. */
+/* Converts a motion between models, which are centred and scaled, to one between the sides. */
 void mr_align_put_map(const model *a, const model *b, const mr_affine *map, mr_align_result *r);
 
-/* Of the box of a side; MR_EMESH where it is none. */
+/* The diagonal of the box of a side; MR_EMESH if it has no extent. */
 mr_status mr_align_diagonal(mr_ctx *ctx, mr_align_side s, double *diagonal) MR_WARN_UNUSED;
 
 /* The unit of sides whose diagonals are from `least` to `most`. */

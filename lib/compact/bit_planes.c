@@ -3,15 +3,16 @@
 
 #include "subdivide/loop_ring.h"
 
-/* What is known of a bit: how large the coefficients are beside it, and at the ends of its edge, and how far
- * its level is below the finest; whether it is of a larger one, and how large; the signs beside it. */
+/* Contexts.  Until a coefficient is significant: the sizes of its neighbours, those at the ends of its edge,
+ * and the depth of its level below the finest; after that, its own size.  A sign: the signs of its
+ * neighbours. */
 enum { BESIDE = 9, ENDS = 6, DEPTH = 4, LARGE = 4 };
 
 typedef struct field_odds {
 	mr_odds first[DEPTH][ENDS][BESIDE], further[DEPTH][LARGE], sign[2][3];
 } field_odds;
 
-/* A coefficient as it is known: its size so far, and its sign. */
+/* The sign of a known coefficient; the other bits are its size. */
 #define NEGATIVE (1u << 31)
 
 typedef struct coding {
@@ -29,8 +30,8 @@ size_of(uint32_t known)
 	return known & ~NEGATIVE;
 }
 
-/* What is around a coefficient, in halves of the plane's bit: sums of sizes beside it, and of the ends;
- * signs. */
+/* Sums over the neighbours of a coefficient and over the ends of its edge: sizes, in halves of the plane's
+ * bit, and signs. */
 typedef struct around {
 	uint32_t beside, ends;
 	int sign;
@@ -105,7 +106,7 @@ odds_of_further(const coding *s, size_t j, uint32_t above)
 	return &s->odds->further[depth][above < LARGE ? above - 1 : LARGE - 1];
 }
 
-/* The first bit of a coefficient that is not 0, or a 0; then its sign. */
+/* Codes a bit of a coefficient that is not significant yet; after a 1, its sign. */
 static inline uint32_t
 code_first(const coding *s, size_t j, size_t v, unsigned plane)
 {
@@ -129,7 +130,8 @@ code_further(const coding *s, size_t j, size_t v, unsigned plane)
 	return known | (uint32_t)bit << plane;
 }
 
-/* One bit of the coefficients of level j.  What is read becomes a number: the middle of what it may be. */
+/* Codes one bit of each coefficient of level j.  When reading, f->x becomes the middle of its possible
+ * values. */
 static void
 code_plane(const coding *s, size_t j, unsigned plane)
 {

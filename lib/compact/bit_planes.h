@@ -1,7 +1,6 @@
 /*
  * bit_planes.h -- coefficients on the levels of a subdivision surface, most significant bits first, so that
- * every beginning of what is written is a surface (Taubman 2000; Shapiro 1993): bit by bit, each with odds
- * that what is known around it gives (Wu 1997).
+ * every prefix is a surface (Taubman 2000; Shapiro 1993).  Neighbours give the context of a bit (Wu 1997).
  *
  * Pass p has of level j bit p + j: a coefficient counts as much as the square root of the area that it
  * changes, and a level's vertices stand half as far apart as those of the one below.
@@ -26,9 +25,9 @@ mr_status mr_bit_planes_count(mr_ctx *ctx, const mr_loop *level, size_t n, mr_bi
 /* How many passes there are. */
 unsigned mr_bit_planes_passes(const mr_bit_planes *f, size_t fields, size_t n);
 
-/* Writes or reads the fields, whose planes are known, each pass of all; reading: until c has ended.  The
- * arena keeps what that takes, for c may grow in it.  end: NULL, or how many bytes reach to the end of each
- * of MR_BIT_PLANES_MOST passes; those that there are not stay. */
+/* Writes the fields, or reads them until c has ended; f->planes is given.  Its memory stays in the arena,
+ * where c grows.  end: MR_BIT_PLANES_MOST byte counts, one for the end of each pass, or NULL; unused ones
+ * stay. */
 void mr_bit_planes_code(
     mr_ctx *ctx, mr_coder *c, const mr_loop *level, size_t n, mr_bit_planes *f, size_t fields, size_t *end);
 

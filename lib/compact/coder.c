@@ -30,7 +30,7 @@ put(mr_coder *c, unsigned char byte)
 	c->byte[c->count++] = byte;
 }
 
-/* Puts the byte that waited, with its carry, and those behind it. */
+/* Writes the delayed byte, with its carry, and the bytes 0xff after it. */
 static void
 put_waiting(mr_coder *c, bool carry)
 {

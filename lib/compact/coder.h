@@ -1,13 +1,12 @@
 /* coder.h -- adaptive binary arithmetic coding in integers alone, so that all machines agree: a range coder
  * (Martin 1979) whose carries wait, as in LZMA (man/mr-compact.5, "Bits").  The same functions write and
- * read: what they are given is written, and what they give back is what is there. */
+ * read: they write their argument, or ignore it and return the value read. */
 #ifndef MR_COMPACT_CODER_H
 #define MR_COMPACT_CODER_H
 
 #include "base/ctx.h"
 
-/* What is known of a bit: of 65,536, how much more than half says 1, and of how many bits; zeroed, nothing.
- */
+/* An adaptive bit model: the probability of a 1 is (32,768 + lean) / 65,536, learnt from `seen` bits. */
 typedef struct mr_odds {
 	int16_t lean;
 	uint16_t seen;
@@ -16,9 +15,9 @@ typedef struct mr_odds {
 typedef struct mr_coder {
 	mr_ctx *ctx;
 	bool reading;
-	bool ended; /* reading: a byte was wanted that is not there; what was read before holds */
+	bool ended; /* reading: past the last byte; bits read before are valid */
 	unsigned char *byte;
-	size_t count, room; /* bytes read, of how many; or bytes written, and room for them */
+	size_t count, room; /* bytes read, and their number; or bytes written, and room for them */
 	uint64_t low;       /* writing */
 	uint32_t range, code;
 	size_t waiting; /* bytes 0xff written after `last`, which a carry would change */
@@ -32,12 +31,12 @@ void mr_coder_write(mr_ctx *ctx, mr_coder *c);
 /* Reads `size` bytes, all there are, or the first ones of them. */
 void mr_coder_read(const void *byte, size_t size, mr_coder *c);
 
-enum { MR_CODER_AHEAD = 5 }; /* bytes that are read before they are needed, at most */
+enum { MR_CODER_AHEAD = 5 }; /* the reader is at most so many bytes ahead of the writer */
 
-/* Ends what is written: c->byte, c->count. */
+/* Flushes the writer: c->byte has c->count bytes. */
 void mr_coder_finish(mr_coder *c);
 
-/* When the range is short of a byte. */
+/* Renormalizes the range by a byte. */
 void mr_coder_shift(mr_coder *c);
 
 enum { MR_ODDS_SEEN = 254 };
@@ -72,10 +71,10 @@ mr_code_bit(mr_coder *c, mr_odds *o, bool bit)
 	return bit;
 }
 
-/* Bits of which nothing is known, the highest first: value < 2^n, n <= 32. */
+/* Codes n <= 32 equiprobable bits, the highest first: value < 2^n. */
 uint32_t mr_code_plain(mr_coder *c, unsigned n, uint32_t value);
 
-/* What is known of numbers of either sign: how long they are, their highest bits, their sign. */
+/* Models of signed numbers: of their length, their highest bits, their sign. */
 typedef struct mr_number_odds {
 	mr_odds length[33], high[33][4], sign;
 } mr_number_odds;

@@ -1,7 +1,7 @@
 /* Triangles grow over the edges of a control mesh; writing and reading are the same walk. */
 #include "compact/control_code.h"
 
-/* What is known of the choices; near: how near a vertex is to where the next is expected, 0 to 3. */
+/* Models of the choices.  NEAR: classes of distance from the predicted vertex. */
 enum { NEAR = 4, DEGREES = 16 };
 #define RIM (MR_NONE - 1)
 
@@ -10,18 +10,18 @@ typedef struct choices {
 	mr_number_odds axis[2][3];
 } choices;
 
-/* The mesh that grows, in the order of its faces. */
+/* The mesh so far, and what it is written from. */
 typedef struct growing {
 	mr_ctx *ctx;
 	mr_coder *c;
-	mr_grid_mesh m;         /* as it is when read */
+	mr_grid_mesh m;         /* in the order of the file */
 	size_t nv, nf;          /* of it, so far */
 	uint32_t *twin;         /* MR_NONE: open; RIM: of the boundary */
 	uint32_t *first, *more; /* the half-edges that leave a vertex: a list */
 	uint8_t *degree;        /* faces of a vertex */
 	choices *odds;
-	bool rim; /* the edge before was of the boundary */
-	bool bad; /* what is read is no mesh */
+	bool rim; /* the last edge coded is on the boundary */
+	bool bad; /* the file is damaged */
 	/* writing alone */
 	const mr_grid_mesh *from;
 	const mr_topology *topo;
@@ -53,8 +53,8 @@ join(growing *g, uint32_t h, uint32_t other)
 		g->twin[other] = h;
 }
 
-/* Adds a face whose first edge lies along half-edge `at`, MR_NONE: along none; its other edges join those
- * that are open.  half: its first half-edge in what is written. */
+/* Adds a face.  Its first edge joins half-edge `at`, unless that is MR_NONE; the others join matching open
+ * edges. half: its first half-edge in the input mesh. */
 static void
 add_face(growing *g, mr_tri t, uint32_t at, uint32_t half)
 {
@@ -74,7 +74,7 @@ add_face(growing *g, mr_tri t, uint32_t at, uint32_t half)
 	}
 }
 
-/* Adds a vertex: `old` of what is written, expected at p. */
+/* Adds a vertex, predicted at p; old: its index in the input mesh. */
 static uint32_t
 add_vertex(growing *g, uint32_t old, mr_grid_point p, bool first)
 {
@@ -99,7 +99,7 @@ add_vertex(growing *g, uint32_t old, mr_grid_point p, bool first)
 	return v;
 }
 
-/* How far p is from q, beside the length of the edge from a to b: 0 is near, NEAR - 1 is far. */
+/* The class of the distance from p to q, relative to the edge ab: 0 is near, NEAR - 1 is far. */
 static int
 nearness(mr_grid_point p, mr_grid_point q, mr_grid_point a, mr_grid_point b)
 {
@@ -118,13 +118,13 @@ nearness(mr_grid_point p, mr_grid_point q, mr_grid_point a, mr_grid_point b)
 	return n;
 }
 
-/* An open edge of the mesh, where the next face grows: from u to v, its own face has o behind it. */
+/* An open half-edge h from u to v, where the next face grows; o is the third corner of its own face. */
 typedef struct gate {
 	uint32_t h, u, v, o;
 	mr_grid_point expected;
 } gate;
 
-/* The vertices that a face there may reach over another open edge, at u (side 0) or v: at most `room`. */
+/* Lists up to `room` vertices that share an open edge with u (side 0) or v (side 1). */
 static size_t
 neighbours(const growing *g, const gate *at, int side, uint32_t *w, size_t room)
 {
@@ -138,7 +138,7 @@ neighbours(const growing *g, const gate *at, int side, uint32_t *w, size_t room)
 	return n;
 }
 
-/* Which vertex that is there already, `wanted` where that is known, a face reaches. */
+/* Codes which existing vertex is the apex: `wanted`, when writing. */
 static uint32_t
 code_known(growing *g, const gate *at, uint32_t w[2][NEAR], const size_t n[2], uint32_t wanted)
 {
@@ -156,7 +156,7 @@ code_known(growing *g, const gate *at, uint32_t w[2][NEAR], const size_t n[2], u
 	return mr_code_plain(g->c, bits, wanted);
 }
 
-/* The vertex that the face at the gate reaches; old: in what is written. */
+/* Codes the apex of the face at the gate; old: its index in the input mesh. */
 static uint32_t
 code_apex(growing *g, const gate *at, uint32_t old)
 {
@@ -176,7 +176,7 @@ code_apex(growing *g, const gate *at, uint32_t old)
 	return code_known(g, at, w, n, wanted);
 }
 
-/* Half-edge h is of the boundary, or another face is there. */
+/* Codes whether half-edge h is on the boundary, else the face across it. */
 static void
 grow_at(growing *g, uint32_t h)
 {
@@ -196,7 +196,7 @@ grow_at(growing *g, uint32_t h)
 		add_face(g, (mr_tri){ { at.v, at.u, w } }, h, half);
 }
 
-/* The first face of a component, `old` in what is written. */
+/* Adds the first face of a component; old: its index in the input mesh. */
 static void
 plant(growing *g, size_t old)
 {
@@ -212,7 +212,7 @@ plant(growing *g, size_t old)
 	add_face(g, t, MR_NONE, (uint32_t)(3 * old));
 }
 
-/* The next face of what is written that is in no component yet. */
+/* The next face of the input mesh that is not coded yet. */
 static size_t
 next_face(const growing *g, size_t f)
 {
@@ -236,7 +236,7 @@ code_faces(growing *g)
 	}
 }
 
-/* Vertices of no face. */
+/* Codes the isolated vertices. */
 static void
 code_isolated(growing *g)
 {
@@ -252,7 +252,7 @@ code_isolated(growing *g)
 static void
 code_creases(growing *g)
 {
-	uint8_t *at = MR_NEW_ZERO(g->ctx, g->m.nv, uint8_t); /* how many end there, 2: or more */
+	uint8_t *at = MR_NEW_ZERO(g->ctx, g->m.nv, uint8_t); /* creases that end there, up to 2 */
 
 	for (uint32_t h = 0; h < 3 * g->m.nf; h++) {
 		uint32_t twin = g->twin[h], a = from(g, h), b = from(g, mr_he_next(h));

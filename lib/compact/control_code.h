@@ -20,18 +20,18 @@ typedef struct mr_grid_mesh {
 	uint8_t *crease; /* of half-edges, 3 nf, on both sides of an edge; NULL: none */
 } mr_grid_mesh;
 
-/* The mesh as it is read, and where it was written from. */
+/* The mesh in the order of the file. */
 typedef struct mr_control_order {
 	mr_grid_mesh m;
-	const uint32_t *vertex, *half; /* of each vertex and half-edge of m: which it was */
+	const uint32_t *vertex, *half; /* index in the input mesh of each vertex and half-edge of m */
 } mr_control_order;
 
 /* Writes an oriented manifold m with the topology.  order: in the arena. */
 void mr_control_write(
     mr_ctx *ctx, mr_coder *c, const mr_grid_mesh *m, const mr_topology *topo, mr_control_order *order);
 
-/* Reads m, whose nv, nf and whether it has creases (any pointer) are known: the rest in the arena. MR_EFORMAT
- * where it is none; that it is a manifold is for the caller to see. */
+/* Reads the rest of m, of which nv and nf are given, and creases if m->crease is not NULL; in the arena.
+ * MR_EFORMAT for damage; the caller checks that m is a manifold. */
 mr_status mr_control_read(mr_ctx *ctx, mr_coder *c, mr_grid_mesh *m);
 
 #endif

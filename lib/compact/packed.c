@@ -4,9 +4,9 @@
 #include "compact/lifting.h"
 
 enum { BLOCK = 4096, CHECK = 4, FEW = 1024, MOST_A_BYTE = 1 << 14, CREASES = 1, COLORS = 2, OPACITY = 4 };
-enum { COLOR_PASS = 2 }; /* behind which colours look right: lightness is exact to 16 of 255 and nearer */
+enum { COLOR_PASS = 2 }; /* after it colours look right: lightness is exact to 16 of 255 */
 static const char magic[] = "mrz1\n";
-static uint8_t some_crease; /* whose address says that there are creases to read */
+static uint8_t some_crease; /* its address asks mr_control_read for creases */
 enum { MAGIC = sizeof magic - 1 };
 
 /* zlib's CRC-32, which the page needs, too. */
@@ -166,7 +166,7 @@ mr_packed_read_fields(mr_ctx *ctx, mr_packed *p, mr_packed_bytes bits, size_t up
 		mr_lifting_synthesize(ctx, p->level, upto, p->field[i].x);
 }
 
-/* What is left to read. */
+/* The rest of the input. */
 typedef struct input {
 	const unsigned char *byte;
 	size_t size;
@@ -221,7 +221,7 @@ get_bytes(input *in, void *to, size_t n)
 	in->size -= n;
 }
 
-/* The head but for its control mesh, whose bits are what is left; *total: bytes of the fields' bits. */
+/* Reads the head up to the bits of the control mesh.  *total: bytes of the fields. */
 static mr_status
 get_head(mr_ctx *ctx, input *in, mr_packed *p, size_t *total)
 {
@@ -249,7 +249,7 @@ get_head(mr_ctx *ctx, input *in, mr_packed *p, size_t *total)
 	return in->bad ? mr_fail(ctx, MR_EFORMAT, "its head is damaged") : MR_OK;
 }
 
-/* The control mesh and the levels, of which there are no more than a file of this size can mean. */
+/* Reads the control mesh and makes the levels; refuses more of them than a file of this size may have. */
 static mr_status
 get_control(mr_ctx *ctx, const input *in, size_t size, mr_packed *p)
 {

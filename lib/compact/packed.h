@@ -1,7 +1,7 @@
 /*
- * packed.h -- a displaced subdivision surface in few bytes, of which every beginning that holds the control
- * mesh is one, too (man/mr-compact.5): a head, with the control mesh on a grid, then the bits of heights and
- * colours in blocks.  All are whole numbers; steps and units are powers of two, so that all machines agree.
+ * packed.h -- the packed file (man/mr-compact.5): a head with the control mesh on a grid, then heights and
+ * colours in blocks.  Every prefix that holds the head is a surface.  All values are integers, and steps are
+ * powers of two, so that all machines agree.
  */
 #ifndef MR_COMPACT_PACKED_H
 #define MR_COMPACT_PACKED_H
@@ -33,7 +33,7 @@ typedef struct mr_packed_bytes {
 /* The levels of the control mesh, in the arena.  MR_EMESH where it is no oriented manifold. */
 mr_status mr_packed_levels(mr_ctx *ctx, mr_packed *p);
 
-/* Where the control vertices are: p->control.nv, the caller's. */
+/* The positions of the control vertices: p->control.nv, the caller's. */
 void mr_packed_positions(const mr_packed *p, mr_v3 *position);
 
 /* Heights and colours (of 0 to 255, four of each vertex) as numbers of the fields, and back.  MR_ERANGE where
@@ -43,21 +43,21 @@ void mr_packed_put_colors(mr_ctx *ctx, mr_packed *p, const uint8_t (*color)[4]);
 void mr_packed_heights(const mr_packed *p, size_t level, double *height);
 void mr_packed_colors(const mr_packed *p, size_t level, uint8_t (*color)[4]);
 
-/* The bits of all numbers, in the arena; the numbers are lost.  least: bytes that colours need. */
+/* Codes all fields, whose numbers are overwritten; bits: in the arena.  *least: bytes that colours need. */
 mr_status mr_packed_write_fields(mr_ctx *ctx, mr_packed *p, mr_packed_bytes *bits, size_t *least);
 
-/* The numbers on level `upto`, in the arena, as far as these bits, all or the first ones, say. */
+/* Decodes the fields on level `upto` from these bits, all or a prefix; in the arena. */
 void mr_packed_read_fields(mr_ctx *ctx, mr_packed *p, mr_packed_bytes bits, size_t upto);
 
-/* A file of the control mesh, as written, and so many bits; in the arena. */
+/* The file of a coded control mesh and these bits; in the arena. */
 mr_packed_bytes
 mr_packed_file(mr_ctx *ctx, const mr_packed *p, const mr_coder *control, mr_packed_bytes bits);
 
-/* How many bytes of bits a file of `size` bytes has room for, whose head takes `head`. */
+/* Bytes of the fields in a file of `size` bytes with a head of `head` bytes. */
 size_t mr_packed_room(size_t head, size_t size);
 
-/* What a file says of itself, its control mesh and levels, and its bits as far as they are there, but for so
- * many missing bytes; in the arena.  MR_EFORMAT where it is damaged, or the head is not whole. */
+/* Reads the head, the control mesh and the bits of the fields, of which *missing bytes are cut off; in the
+ * arena. MR_EFORMAT for a damaged file or an incomplete head. */
 mr_status
 mr_packed_open(mr_ctx *ctx, mr_packed_bytes file, mr_packed *p, mr_packed_bytes *bits, size_t *missing);
 

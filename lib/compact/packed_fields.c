@@ -1,4 +1,4 @@
-/* What the fields mean. */
+/* Heights and colours as integers of the fields, and back. */
 #include "compact/packed.h"
 
 enum { HEIGHT_MOST = 1 << 27 };
@@ -44,7 +44,7 @@ mr_packed_put_colors(mr_ctx *ctx, mr_packed *p, const uint8_t (*color)[4])
 	}
 }
 
-/* What a number of a colour's field stands for. */
+/* The value of a colour's field, of 255. */
 static int32_t
 color_at(const mr_packed *p, size_t field, size_t v)
 {

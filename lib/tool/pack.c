@@ -8,16 +8,17 @@
 
 /* The control mesh's grid is coarser than the heights, which make up for it, by so many powers of two; but
  * not along boundaries and creases. */
-enum { COARSER = 6, COARSER_AT_CURVES = 2, SEARCH = 6, TOLD = 3 };
+enum { COARSER = 6, COARSER_AT_CURVES = 2, SEARCH = 6, TRIES = 3 };
 enum { LOOKED_AT = 20000 }; /* faces, or points, of each surface while the number of bytes is sought */
-/* The search ends so near to the error that is asked for; and so much is allowed over what all bits give. */
+/* The search ends within this share of the error; an unreachable error becomes that of all bits times AMPLE.
+ */
 #define NEARLY 0.98
 #define AMPLE  1.1
 /* Errors that are tried for a number of bytes. */
 #define COARSEST 1e-3
 #define FINEST   1e-6
 
-/* What is packed, and what it is measured against. */
+/* The surface, its target, and the packed file. */
 typedef struct packing {
 	mr_mesh control, target;
 	const uint8_t *crease;
@@ -34,8 +35,8 @@ typedef struct packing {
 	size_t least; /* bytes of them that colours need */
 } packing;
 
-/* What the surface came from, where that is there and it has not been posed since; else the surface itself.
- */
+/* The points or mesh that the surface was made from; the surface itself if there are none or control was
+ * posed. */
 static mr_status
 get_target(mr_ctx *ctx, mr_frame *f, packing *k)
 {
@@ -70,7 +71,7 @@ get_surface(mr_ctx *ctx, mr_frame *f, packing *k)
 	return get_target(ctx, f, k);
 }
 
-/* What of control and displacement does not go along. */
+/* Reports the columns of control and displacement that are not packed. */
 static void
 tell_lost(mr_ctx *ctx, const mr_frame *f)
 {
@@ -270,9 +271,9 @@ estimate(mr_ctx *ctx, const packing *k, const mr_domain *d, size_t bits)
 	return k->target.nf ? (there + mean_from(ctx, &surface, k->bvh)) / 2 : there;
 }
 
-/* Mean square of what the heights of so many bytes lack. */
+/* The mean squared error of the heights after so many bytes. */
 static double
-lack(mr_ctx *ctx, const packing *k, const double *height, size_t bits)
+squared_error(mr_ctx *ctx, const packing *k, const double *height, size_t bits)
 {
 	MR_SCOPE(ctx);
 	size_t nv = k->p.level[k->p.n].nv;
@@ -284,15 +285,15 @@ lack(mr_ctx *ctx, const packing *k, const double *height, size_t bits)
 	return sum / (double)nv;
 }
 
-/* The fewest bytes by which the heights lack no more. */
+/* The fewest bytes whose heights have at most this squared error. */
 static size_t
-bits_of_lack(mr_ctx *ctx, const packing *k, const double *height, double most)
+fewest_bits(mr_ctx *ctx, const packing *k, const double *height, double most)
 {
 	size_t few = 0, enough = k->bits.size;
 
 	while (enough - few > enough / 256 + 4) {
 		size_t half = few + (enough - few) / 2;
-		if (lack(ctx, k, height, half) > most)
+		if (squared_error(ctx, k, height, half) > most)
 			few = half;
 		else
 			enough = half;
@@ -301,9 +302,9 @@ bits_of_lack(mr_ctx *ctx, const packing *k, const double *height, double most)
 }
 
 /*
- * The fewest bytes that give the error, or nearly what all of them give where that is more.  The square of an
- * error is that of all bits, and a share of the square of what the heights lack: that share is measured, and
- * measured again where it gave another error.
+ * The fewest bytes that reach the error, or AMPLE times the error of all bits if that is larger.  Model:
+ * error^2 is that of all bits plus a share of the squared error of the heights; the share is estimated anew
+ * in each step.
  */
 static size_t
 search(mr_ctx *ctx, packing *k, const mr_domain *d)
@@ -316,9 +317,9 @@ search(mr_ctx *ctx, packing *k, const mr_domain *d)
 	own = estimate(ctx, k, d, bits);
 	want = fmax(k->error, AMPLE * own);
 	for (int i = 0; i < SEARCH; i++) {
-		size_t try = bits_of_lack(ctx, k, height, (want * want - own * own) / share);
+		size_t try = fewest_bits(ctx, k, height, (want * want - own * own) / share);
 		mean = estimate(ctx, k, d, try);
-		share = (mean * mean - own * own) / lack(ctx, k, height, try);
+		share = (mean * mean - own * own) / squared_error(ctx, k, height, try);
 		if (mean <= want && try < bits)
 			bits = try;
 		if (mean <= want && mean > NEARLY * want)
@@ -327,8 +328,8 @@ search(mr_ctx *ctx, packing *k, const mr_domain *d)
 	return bits;
 }
 
-/* All bits for an error, as a share of the diagonal; by its own choice where the bytes alone are given: the
- * largest error for which there are more bits than those have room for. */
+/* Codes all bits for the error.  If only a number of bytes is given: for the largest error that fills them.
+ */
 static mr_status
 pack_for(mr_ctx *ctx, packing *k, const mr_pack_opts *o, mr_domain *d)
 {
@@ -352,7 +353,7 @@ pack_for(mr_ctx *ctx, packing *k, const mr_pack_opts *o, mr_domain *d)
 static mr_status
 room_for_bits(mr_ctx *ctx, const packing *k, const mr_pack_opts *o, size_t *room)
 {
-	/* with room for a longer count of bits than that of none */
+	/* the count of bits takes up to 4 more bytes than that of none */
 	size_t head = mr_packed_file(ctx, &k->p, &k->head, (mr_packed_bytes){ NULL, 0 }).size + 4;
 
 	*room = o->bytes ? mr_packed_room(head, o->bytes) : SIZE_MAX;
@@ -361,8 +362,8 @@ room_for_bits(mr_ctx *ctx, const packing *k, const mr_pack_opts *o, size_t *room
 	           : mr_fail(ctx, MR_ERANGE, "control: takes %zu bytes alone", head);
 }
 
-/* How many bytes of bits the options ask for, and how far the surface is then; the search, which estimates,
- * is told what came of it. */
+/* Chooses the number of bytes and measures the error.  If the estimate was too low, searches again for a
+ * smaller one. */
 static mr_status
 choose_bits(
     mr_ctx *ctx, packing *k, const mr_domain *d, const mr_pack_opts *o, size_t *bits, mr_pack_result *r)
@@ -372,7 +373,7 @@ choose_bits(
 
 	MR_TRY(room_for_bits(ctx, k, o, &room));
 	*bits = 0;
-	for (int i = 0; i < TOLD; i++) {
+	for (int i = 0; i < TRIES; i++) {
 		size_t before = *bits, found = o->error > 0 ? search(ctx, k, d) : k->bits.size;
 		found = found < k->least ? k->least : found;
 		*bits = found < room ? found : room;
