@@ -48,8 +48,10 @@ PLACE    := -fdebug-prefix-map=$(CURDIR)=.
 ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -fno-trapping-math -ffp-contract=off -pthread $(SHARED) \
 		$(PLACE) $(CFLAGS) $(HARDEN)
 ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -ffp-contract=off -pthread $(SHARED) $(PLACE) $(CFLAGS) $(HARDEN)
-# Draco, where it is there when this is built.
-DRACO    := $(shell echo '\#include <draco/draco_features.h>' | $(CXX) -E -xc++ - >/dev/null 2>&1 && echo -ldraco)
+# Draco if it is installed, as an archive if there is one: every tool needs half a millisecond to load the other.
+DRACO    := $(shell for l in -l:libdraco.a -ldraco; do \
+		printf '\043include <draco/draco_features.h>\nint main() {}\n' | \
+		$(CXX) -xc++ - -o /dev/null $$l 2>/dev/null && echo $$l && break; done)
 LIBS     := -Wl,--as-needed -lcamd -lcholmod -lumfpack -llz4 -ltinyobjloader_double -lmeshoptimizer $(DRACO) \
 		-lpng -ljpeg -ljansson -ldeflate -lz -lstdc++ -ldl -lm
 
