@@ -6,9 +6,9 @@
 #include "space/bvh.h"
 #include "subdivide/displaced.h"
 
-/* The control mesh's grid is coarser than the heights, which make up for it, by so many powers of two; but
- * not along boundaries and creases. */
-enum { COARSER = 6, COARSER_AT_CURVES = 2, SEARCH = 6, TRIES = 3 };
+/* Powers of two: the control mesh's grid is coarser than the heights, which make up for it, and less so if
+ * there are boundaries or creases; it is finer than the mean edge, or the domain would fold. */
+enum { COARSER = 6, COARSER_AT_CURVES = 2, FINER_THAN_EDGES = 4, SEARCH = 6, TRIES = 3 };
 enum { LOOKED_AT = 20000 }; /* faces, or points, of each surface while the number of bytes is sought */
 /* The search ends within this share of the error; an unreachable error becomes that of all bits times AMPLE.
  */
@@ -328,20 +328,34 @@ search(mr_ctx *ctx, packing *k, const mr_domain *d)
 	return bits;
 }
 
+/* The exponent of the step of the control mesh's grid. */
+static int
+grid_step(const packing *k)
+{
+	const mr_mesh *m = &k->control;
+	bool curves = k->crease || mr_loop_boundary(&k->level[0]);
+	int step = k->p.unit + (curves ? COARSER_AT_CURVES : COARSER), most;
+	double sum = 0;
+
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		sum += mr_dist(m->p[mr_he_from(m, h)], m->p[mr_he_to(m, h)]);
+	most = sum > 0 ? ilogb(sum / (3 * (double)m->nf)) - FINER_THAN_EDGES : step;
+	return step < most ? step : most;
+}
+
 /* Codes all bits for the error.  If only a number of bytes is given: for the largest error that fills them.
  */
 static mr_status
 pack_for(mr_ctx *ctx, packing *k, const mr_pack_opts *o, mr_domain *d)
 {
 	double error = o->error > 0 ? o->error : COARSEST;
-	bool curves = k->crease || mr_loop_boundary(&k->level[0]);
 
 	k->diagonal = mr_box_diagonal(mr_box_of(k->target.p, k->target.nv));
 	for (;; error /= 4) {
 		mr_mark mark = mr_mark_take(ctx);
 		k->error = error * k->diagonal;
 		k->p.unit = ilogb(k->error) - 1;
-		k->p.step = k->p.unit + (curves ? COARSER_AT_CURVES : COARSER);
+		k->p.step = grid_step(k);
 		MR_TRY(pack_all(ctx, k, d));
 		if (o->error > 0 || k->bits.size > o->bytes || error < FINEST)
 			return MR_OK;

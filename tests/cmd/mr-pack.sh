@@ -17,6 +17,15 @@ print(sys.argv[1], 0.9 * want < mean <= 1.01 * want, abs(mean - said["error"]) <
 PY
 done
 
+echo 'a number of bytes: about as good as the error that takes as many'
+mr-make bumpy -n 20000 | mr-simplify -q --to control -n 1200 | mr-fit -q | mr-sample -q -n 3 -o bumpy.mrs
+for e in 0.05% 0.02%; do
+	mr-pack -e $e bumpy.mrs by-error.mrz --stats by-error
+	mr-pack -n "$(wc -c <by-error.mrz)" bumpy.mrs by-bytes.mrz --stats by-bytes
+	python3 -c 'import json
+a, b = (json.load(open(f))["error"] for f in ("by-error", "by-bytes")); print(b < 1.3 * a)'
+done
+
 echo 'threads, and once more: the same bytes'
 mr-pack -j 1 -e 0.02% surface.mrs one.mrz
 mr-pack -j 3 -e 0.02% surface.mrs three.mrz
