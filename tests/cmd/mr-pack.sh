@@ -45,22 +45,18 @@ mr-unpack two.mrz | mr-info | grep topology
 
 echo 'colours, and what stays behind'
 cat >colors.py <<'PY'
-import numpy, mrstream, sys
-def color(frames):
-    for f in frames:
-        p = f["displacement"]["height"].shape[0]
-        c = numpy.zeros((p, 4), numpy.uint8)
-        c[:, 0], c[:, 1], c[:, 2], c[:, 3] = 200, 100, 30, 255
-        f.put("displacement", "color", c, "v")
-        f.put("displacement", "heat", numpy.zeros(p), "v")
-        yield f
-mrstream.write("-", color(mrstream.read("-")))
+import sys
+from records import read, record
+for layer, name, shape, rows, data in read(sys.stdin.buffer.read()):
+    sys.stdout.buffer.write(record(layer, name, shape, rows, data))
+    if name == b"height":
+        sys.stdout.buffer.write(record(layer, b"color", b"vb\4", rows, bytes([200, 100, 30, 255]) * rows))
+        sys.stdout.buffer.write(record(layer, b"heat", b"vd\1", rows, bytes(8 * rows)))
 PY
-PYTHONPATH="$TOP/examples" python3 colors.py <surface.mrs | mr-pack -e 0.1% - colors.mrz
+PYTHONPATH="$TOP/tests" python3 colors.py <surface.mrs | mr-pack -e 0.1% - colors.mrz
 mr-unpack colors.mrz -o colors.mrs
-PYTHONPATH="$TOP/examples" python3 -c 'import mrstream
-c = next(mrstream.read("colors.mrs"))["displacement"]["color"]
-print(c.min(0), c.max(0))'
+PYTHONPATH="$TOP/tests" python3 -c 'import records
+print(set(records.first_frame("colors.mrs")["displacement", "color"]))'
 
 echo 'points; several frames'
 mr-shrinkwrap -q points.mrs | mr-simplify -q -n 300 | mr-fit -q | mr-sample -q | mr-pack -e 0.05% - p.mrz --stats stats.json
