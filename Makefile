@@ -99,6 +99,7 @@ $(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/pa
 # The part of the library that the page runs, as WebAssembly, by the compiler that knows it.
 WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) $(addprefix lib/, \
 	$(addsuffix .c,$(addprefix base/,ctx rotation sort) $(addprefix mesh/,creases edges mesh zorder) \
+		$(addprefix compact/,bit_planes coder control_code lifting packed packed_fields) \
 		$(addprefix edit/,detail phong pose_basis turns) render/colormap stream/planes \
 		$(addprefix space/,bvh bvh_build geodesic predicates) \
 		$(addprefix subdivide/,displaced loop loop_limit))))

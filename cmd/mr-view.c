@@ -10,6 +10,8 @@ static const cmd_opt table[] = {
 	{ 0, "texture", CMD_TEXT, &page.pictures.texture, 0, 0, "FILE", "picture on surfaces", NULL },
 	{ 0, "materials", CMD_TEXT, &page.pictures.materials, 0, 0, "DIR", "folder of files of materials",
 	    NULL },
+	{ 0, "pack", CMD_SHARE, &page.pack, 1e-7, 0.1, "SHARE",
+	    "pack displaced surfaces: mean distance from what they were made from, of the diagonal", NULL },
 	{ 0 },
 };
 

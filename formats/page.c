@@ -8,6 +8,7 @@
 #include "formats/bytes.h"
 #include "formats/formats.h"
 #include "subdivide/displaced.h"
+#include "tool/tool.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -36,7 +37,11 @@ typedef struct displaced {
 	const mr_loop *level;
 	const double *height;
 	double extent; /* of the control mesh: the largest side of its box */
+	bool packed;   /* stored as a packed surface in place of the columns of that name */
 } displaced;
+
+static const char *const packed[] = { "control.position", "control.triangles", "displacement.height",
+	"displacement.color", NULL };
 
 /* Whether a comma list, or NULL for any, has the name. */
 static bool
@@ -81,6 +86,9 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const displa
 
 	if (!*c->layer)
 		return mr_is_one_of(c->name, of_frame);
+	for (const char *const *name = packed; *name; name++)
+		if (d->packed && is_column(c, *name))
+			return false;
 	for (const char *const *name = posing; *name; name++)
 		if (is_column(c, *name))
 			return is_posable(f, layers);
@@ -335,6 +343,7 @@ find_displaced(mr_ctx *ctx, const mr_page *page, mr_frame *f, const char *list, 
 	if (list ? !is_listed("displacement", list) : !there)
 		return MR_OK;
 	MR_TRY(get_displaced(ctx, f, d));
+	d->packed = page->pack > 0;
 	d->is_mesh = d->is_mesh && !is_posable(f, list) && !mr_page_can_wear(&page->pictures, f, "mesh");
 	return MR_OK;
 }
@@ -386,8 +395,29 @@ surface_name(const mr_frame *f, const bool *shown)
 	return "mesh";
 }
 
+/* A packed surface, which has another order: of each vertex and face of its control mesh, which it was. */
 static mr_status
-take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, const displaced *d, mr_frame *to, mr_text *notes)
+put_packed(mr_ctx *ctx, mr_frame *from, double error, mr_frame *to, mr_text *notes)
+{
+	const mr_shape bytes = { '-', 'b', 1 }, numbers = { '-', 'u', 1 };
+	mr_control_order order;
+	mr_packed_bytes file;
+	uint32_t *half;
+
+	MR_TRY(mr_pack_in_place(ctx, from, error, &file, &order));
+	half = MR_NEW(ctx, order.m.nf, uint32_t);
+	for (size_t i = 0; i < order.m.nf; i++)
+		half[i] = order.half[3 * i];
+	MR_TRY(mr_frame_put(ctx, to, "displacement", "packed", bytes, file.byte, file.size));
+	MR_TRY(mr_frame_put(ctx, to, "control", "packed_vertex", numbers, order.vertex, order.m.nv));
+	MR_TRY(mr_frame_put(ctx, to, "control", "packed_half", numbers, half, order.m.nf));
+	mr_text_add(notes, "packed%s\n", mr_layer_has(from, "displacement", "color") ? " color" : "");
+	return MR_OK;
+}
+
+static mr_status
+take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, const displaced *d, double pack, mr_frame *to,
+    mr_text *notes)
 {
 	bool same;
 
@@ -401,7 +431,7 @@ take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, const displaced *d,
 	for (size_t i = 0; i <= d->n; i++)
 		mr_text_add(notes, " %zu", d->level[i].nv);
 	mr_text_add(notes, "\n");
-	return MR_OK;
+	return d->packed ? put_packed(ctx, from, pack, to, notes) : MR_OK;
 }
 
 /* What the surfaces that are shown wear, and the columns that place it. */
@@ -434,7 +464,7 @@ take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const
 	MR_TRY(wear_pictures(ctx, from, &page->pictures, shown, &notes));
 	if (stem)
 		mr_text_add(&notes, "file %s\n", stem);
-	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
+	MR_TRY(take_columns(ctx, from, shown, d, page->pack, to, &notes));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
 }
@@ -478,6 +508,7 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers)
 		MR_TRY(mr_writer_open(ctx, fileno(page->file), MR_PACK, &page->writer));
 	MR_TRY(mr_writer_put(ctx, page->writer, &shown));
 	page->frames++;
+	page->packed |= surface.packed;
 	return MR_OK;
 }
 
@@ -522,6 +553,9 @@ mr_page_write(mr_ctx *ctx, mr_page *page, const char *html, const char *path, mr
 	mr_sink sink;
 
 	MR_TRY(mr_page_pictures_check(ctx, &page->pictures));
+	if (page->pack > 0 && !page->packed)
+		return mr_fail(
+		    ctx, MR_EMISSING, "no frame has a displaced surface to pack: mr-sample makes one");
 	MR_TRY(mr_writer_end(ctx, page->writer));
 	MR_TRY(check_size(ctx, lseek(fileno(page->file), 0, SEEK_CUR), &page->pictures));
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));

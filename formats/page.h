@@ -46,7 +46,9 @@ void mr_put_base64(mr_sink *s, const unsigned char *p, size_t n);
 
 /* A page in the making; starts zeroed. */
 typedef struct mr_page {
-	FILE *file; /* without a name: the stream, until the page is written */
+	double pack; /* the caller's: mean error of displaced surfaces, as a share of the diagonal; 0: none */
+	bool packed; /* whether there was one */
+	FILE *file;  /* without a name: the stream, until the page is written */
 	mr_writer *writer;
 	size_t frames;
 	mr_page_pictures pictures;
@@ -58,7 +60,7 @@ typedef struct mr_page {
 mr_status mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers) MR_WARN_UNUSED;
 
 /* Writes `html` with the frames in place of the line <!-- stream -->.  held: the file, the caller's to keep
- * or to drop.  MR_EMISSING where pictures are asked for and no layer wears any. */
+ * or to drop.  MR_EMISSING where pictures or packed surfaces are asked for, and there are none. */
 mr_status mr_page_write(
     mr_ctx *ctx, mr_page *page, const char *html, const char *path, mr_outfile *held) MR_WARN_UNUSED;
 

@@ -6,6 +6,7 @@ import { Film } from "./film.js";
 import { listen } from "./keys.js";
 import { listModels } from "./models.js";
 import { addLevels } from "./mesh/levels.js";
+import { addPacked } from "./mesh/packed.js";
 import { canDraw } from "./draw/stage.js";
 import { parseStream } from "./stream/stream.js";
 
@@ -60,6 +61,20 @@ function fail(error) {
 	$("message").textContent = error.message;
 }
 
+/* Coarse first: the finest level, where there are some, comes with a later picture. */
+async function drawFirst(app, film) {
+	app.choice.level = app.frames[0].levels ? 0 : null;
+	await film.turn(0);
+	if (app.choice.level === 0) {
+		document.body.setAttribute("aria-busy", "true");
+		await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+		performance.mark("coarse");
+		await app.change({ level: null });
+		app.fit();
+	}
+	requestAnimationFrame(() => setTimeout(() => performance.mark("complete")));
+}
+
 async function begin() {
 	if (!canDraw())
 		throw new Error("This browser cannot draw the model: WebGL is missing or switched off.");
@@ -67,6 +82,7 @@ async function begin() {
 		throw new Error("This browser is too old for the page: it has no WebAssembly with vectors.");
 	});
 	const frames = await parseStream(takeBytes());
+	frames.forEach(addPacked);
 	frames.forEach(addLevels);
 	$("side").hidden = false;
 	const app = window.mrView = new App(frames, takePictures()); /* for the console, and the tests */
@@ -75,7 +91,7 @@ async function begin() {
 		return app.change({ frame }).catch(fail);
 	});
 	listModels(frames, (frame) => film.go(frame));
-	await film.turn(0);
+	await drawFirst(app, film);
 	connect(app);
 }
 

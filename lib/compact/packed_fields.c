@@ -69,3 +69,22 @@ mr_packed_colors(const mr_packed *p, size_t level, uint8_t (*color)[4])
 		color[v][3] = p->fields > 4 ? byte_of(color_at(p, 4, v)) : 255;
 	}
 }
+
+const uint32_t *
+mr_packed_origin(mr_ctx *ctx, const mr_loop *from, const mr_loop *to, size_t n, const mr_control_order *order)
+{
+	uint32_t *origin = MR_NEW(ctx, to->nv, uint32_t);
+	size_t parts = (size_t)1 << 2 * n;
+
+	memcpy(origin, order->vertex, order->m.nv * sizeof *origin);
+	for (size_t f = 0; f < to->nf; f++) {
+		uint32_t half = order->half[3 * (f / parts)], turn = half % 3, old = half / 3;
+		for (size_t shift = 2 * n; shift > 0; shift -= 2) {
+			uint32_t part = (uint32_t)(f >> (shift - 2) & 3);
+			old = 4 * old + (part == 3 ? 3 : (part + turn) % 3);
+		}
+		for (uint32_t i = 0; i < 3; i++)
+			origin[to->t[f].v[i]] = from->t[old].v[(i + turn) % 3];
+	}
+	return origin;
+}

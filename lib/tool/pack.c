@@ -30,6 +30,7 @@ typedef struct packing {
 	double diagonal, error; /* error: a length */
 	mr_packed p;
 	mr_control_order order;
+	const uint32_t *origin; /* of each packed vertex of level n: which it was */
 	mr_coder head;
 	mr_packed_bytes bits;
 	size_t least; /* bytes of them that colours need */
@@ -116,23 +117,8 @@ put_on_grid(mr_ctx *ctx, packing *k, mr_grid_mesh *g)
 static void
 reorder(const packing *k, size_t width, const void *rows, void *ordered)
 {
-	const mr_loop *from = &k->level[k->p.n], *to = &k->p.level[k->p.n];
-	const char *in = rows;
-	char *out = ordered;
-	size_t parts = (size_t)1 << 2 * k->p.n;
-
-	for (size_t v = 0; v < k->control.nv; v++)
-		memcpy(out + v * width, in + k->order.vertex[v] * width, width);
-	for (size_t f = 0; f < to->nf; f++) {
-		uint32_t half = k->order.half[3 * (f / parts)], turn = half % 3, old = half / 3;
-		for (size_t shift = 2 * k->p.n; shift > 0; shift -= 2) {
-			uint32_t part = (uint32_t)(f >> (shift - 2) & 3);
-			old = 4 * old + (part == 3 ? 3 : (part + turn) % 3);
-		}
-		for (uint32_t i = 0; i < 3; i++)
-			memcpy(
-			    out + to->t[f].v[i] * width, in + from->t[old].v[(i + turn) % 3] * width, width);
-	}
+	for (size_t v = 0; v < k->p.level[k->p.n].nv; v++)
+		memcpy((char *)ordered + v * width, (const char *)rows + k->origin[v] * width, width);
 }
 
 /* Heights over the domain of the packed control mesh: where the line along its normal meets the tangent plane
@@ -179,6 +165,7 @@ pack_all(mr_ctx *ctx, packing *k, mr_domain *d)
 	mr_coder_finish(&k->head);
 	k->p.control = k->order.m;
 	MR_TRY(mr_packed_levels(ctx, &k->p));
+	k->origin = mr_packed_origin(ctx, &k->level[k->p.n], &k->p.level[k->p.n], k->p.n, &k->order);
 	domain_of_packed(ctx, &k->p, d);
 	k->p.fields = 1;
 	MR_TRY(mr_packed_put_heights(ctx, &k->p, heights_over(ctx, k, d)));
@@ -415,7 +402,8 @@ tell_if_unreached(mr_ctx *ctx, const mr_pack_opts *o, double error)
 }
 
 static mr_status
-pack(mr_ctx *ctx, mr_frame *f, const mr_pack_opts *o, mr_packed_bytes *file, mr_pack_result *r)
+pack(mr_ctx *ctx, mr_frame *f, const mr_pack_opts *o, mr_packed_bytes *file, mr_control_order *order,
+    mr_pack_result *r)
 {
 	packing *k = MR_NEW_ZERO(ctx, 1, packing);
 	mr_domain d;
@@ -431,9 +419,18 @@ pack(mr_ctx *ctx, mr_frame *f, const mr_pack_opts *o, mr_packed_bytes *file, mr_
 	MR_TRY(choose_bits(ctx, k, &d, o, &bits, r));
 	*file = mr_packed_file(ctx, &k->p, &k->head, (mr_packed_bytes){ k->bits.byte, bits });
 	r->bytes = file->size;
+	*order = k->order;
 	tell_if_unreached(ctx, o, r->error);
-	tell_lost(ctx, f);
 	return MR_OK;
+}
+
+mr_status
+mr_pack_in_place(mr_ctx *ctx, mr_frame *f, double error, mr_packed_bytes *file, mr_control_order *order)
+{
+	mr_pack_opts o = { .error = error };
+	mr_pack_result r;
+
+	return pack(ctx, f, &o, file, order, &r);
 }
 
 mr_status
@@ -441,11 +438,13 @@ mr_pack_frame(mr_ctx *ctx, mr_frame *f, const mr_pack_opts *opts, const void **b
     mr_pack_result *result)
 {
 	static const mr_pack_opts defaults = MR_PACK_DEFAULTS;
+	mr_control_order order;
 	mr_packed_bytes file;
 	mr_pack_result r;
 
 	MR_ENTER(ctx);
-	MR_TRY(pack(ctx, f, opts ? opts : &defaults, &file, &r));
+	MR_TRY(pack(ctx, f, opts ? opts : &defaults, &file, &order, &r));
+	tell_lost(ctx, f);
 	*byte = file.byte;
 	*size = file.size;
 	if (result)

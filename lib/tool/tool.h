@@ -2,6 +2,7 @@
 #ifndef MR_TOOL_TOOL_H
 #define MR_TOOL_TOOL_H
 
+#include "compact/packed.h"
 #include "edit/select.h"
 #include "mesh/layers.h"
 
@@ -21,6 +22,10 @@ mr_status mr_select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result);
 mr_status
 mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_crop_result *result);
+
+/* mr_pack_frame, for one who keeps what does not go along: where the control mesh was, too. */
+mr_status
+mr_pack_in_place(mr_ctx *ctx, mr_frame *f, double error, mr_packed_bytes *file, mr_control_order *order);
 
 /* MR_EUSAGE where options of mr_solve_frame contradict each other. */
 mr_status mr_solve_check(mr_ctx *ctx, const mr_solve_opts *opts);

@@ -1,18 +1,10 @@
 /* levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it: a layer that the page's text names,
  * whose columns are computed when they are asked for, on the level that is chosen. */
-import { Column } from "../stream/codec.js";
+import { Made } from "../stream/codec.js";
 import { library } from "../library/compile.js";
 import { columnOf, keyOf } from "../stream/stream.js";
 
 const HEIGHTS = "displacement";
-
-/* A column that is computed, and found again by what it was computed from. */
-class Made extends Column {
-	constructor(layer, name, shape, make) {
-		super({ layer, name, ...shape });
-		this.read = make;
-	}
-}
 
 /* The first rows of a column: those of a coarser level. */
 const firstRows = (column, layer, rows) => new Made(layer, column.name,

@@ -73,3 +73,11 @@ export class Column {
 		this.steps = { step, origin };
 	}
 }
+
+/* A column that is computed, and found again by what it was computed from. */
+export class Made extends Column {
+	constructor(layer, name, shape, make) {
+		super({ layer, name, ...shape });
+		this.read = make;
+	}
+}

@@ -74,6 +74,8 @@ async function understand(frame) {
 			frame.file = line.slice(5);
 		else if (how === "surface")
 			frame.displaced = { layer, vertices: [name, ...more].map(Number) };
+		else if (how === "packed")
+			frame.packed = new Set([layer]);
 		else if (how === "texture")
 			wearing(frame, layer).texture = Number(name);
 		else if (how === "material")
