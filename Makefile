@@ -191,7 +191,7 @@ check: $(TOOLS) $(ASKED) $(if $(SAN),,$(BUILD)/$(SONAME))
 
 # What is there already is done again only by newer tools or scripts.
 demo: demo/figures.txt demo/clouds.txt demo/index.html
-	@echo; echo 'Page: demo/index.html, to open in a browser: drag the handles.' \
+	@echo; echo 'Page: demo/index.html, to open in a browser, its models beside it: drag the handles.' \
 		'Pictures: demo/sheet.png, the edits; demo/*-scan.png, the scans; demo/frames/, an animation;' \
 		'demo/textured.png and .glb. Tables: $(filter %.txt,$^)'
 
@@ -202,7 +202,7 @@ demo/clouds.txt: $(TOOLS) examples/reconstruct.sh examples/models.sh | demo/figu
 	@$(RUN) examples/reconstruct.sh demo
 
 demo/index.html: $(BUILD)/bin/mr-view demo/figures.txt demo/clouds.txt
-	@$(RUN) mr-view -q $@ demo/edits/*.mrs demo/scans/*.mrs
+	@$(RUN) mr-view -q --beside --pack 0.01% $@ demo/edits/*.mrs demo/scans/*.mrs
 
 bench: $(TOOLS) $(BENCHES) $(RIVALS)
 	@$(RUN) tests/bench/run $(T)

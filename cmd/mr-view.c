@@ -5,6 +5,7 @@
 extern const char mr_page_html[]; /* formats/page, in one text */
 
 static mr_page page;
+static bool beside;
 
 static const cmd_opt table[] = {
 	{ 0, "texture", CMD_TEXT, &page.pictures.texture, 0, 0, "FILE", "picture on surfaces", NULL },
@@ -12,6 +13,7 @@ static const cmd_opt table[] = {
 	    NULL },
 	{ 0, "pack", CMD_SHARE, &page.pack, 1e-7, 0.1, "SHARE",
 	    "pack displaced surfaces: mean distance from what they were made from, of the diagonal", NULL },
+	{ 0, "beside", CMD_FLAG, &beside, 0, 0, NULL, "models but the first in files beside the page", NULL },
 	{ 0 },
 };
 
@@ -21,6 +23,9 @@ prepare(cmd *c)
 	MR_TRY(cmd_output_name(c, "PAGE.html", ".html"));
 	MR_TRY(cmd_idle(c, "materials", page.pictures.texture != NULL, "with --texture"));
 	page.pictures.keep = &c->keep;
+	page.beside = beside ? c->operands[0] : NULL;
+	if (beside && !strcmp(page.beside, "-"))
+		return mr_fail(&c->ctx, MR_EUSAGE, "--beside wants a page with a name");
 	return MR_OK;
 }
 

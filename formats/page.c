@@ -6,6 +6,7 @@
 #include "edit/detail.h"
 #include "edit/handles.h"
 #include "formats/bytes.h"
+#include "formats/filename.h"
 #include "formats/formats.h"
 #include "subdivide/displaced.h"
 #include "tool/tool.h"
@@ -491,31 +492,28 @@ check_size(mr_ctx *ctx, off_t size, const mr_page_pictures *pictures)
 	return MR_OK;
 }
 
-mr_status
-mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers)
+static mr_status
+put_frame(mr_ctx *ctx, mr_page_stream *s, const mr_frame *f)
 {
-	mr_frame shown = { .name = frame->name, .key = frame->key, .number = frame->number };
-	displaced surface;
-
-	MR_TRY(find_displaced(ctx, page, frame, layers, &surface));
-	MR_TRY(check_layers(ctx, frame, layers, &surface));
-	if (is_posable(frame, layers))
-		MR_TRY(check_posing(ctx, frame));
-	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown));
-	if (!page->file && !(page->file = tmpfile()))
+	if (!s->file && !(s->file = tmpfile()))
 		return failed(ctx);
-	if (!page->writer)
-		MR_TRY(mr_writer_open(ctx, fileno(page->file), MR_PACK, &page->writer));
-	MR_TRY(mr_writer_put(ctx, page->writer, &shown));
-	page->frames++;
-	page->packed |= surface.packed;
-	return MR_OK;
+	if (!s->writer)
+		MR_TRY(mr_writer_open(ctx, fileno(s->file), MR_PACK, &s->writer));
+	return mr_writer_put(ctx, s->writer, f);
 }
 
-/* The stream in blocks, each an element of its own, which the page reads and drops one by one: no browser has
- * texts of 400 MB. */
+static void
+free_stream(mr_page_stream *s)
+{
+	mr_writer_free(s->writer);
+	if (s->file)
+		fclose(s->file);
+	*s = (mr_page_stream){ 0 };
+}
+
+/* A stream in blocks, which the page reads and drops one by one: no browser has texts of 400 MB. */
 static mr_status
-put_stream(mr_sink *s, FILE *file)
+put_stream(mr_sink *s, FILE *file, const char *before, const char *after)
 {
 	enum { PIECE = 3000, PIECES = 1000 };
 	unsigned char piece[PIECE];
@@ -525,12 +523,80 @@ put_stream(mr_sink *s, FILE *file)
 		return failed(s->ctx);
 	while ((n = fread(piece, 1, PIECE, file)) > 0) {
 		if (pieces++ % PIECES == 0)
-			mr_print(s, "%s<script type=\"text/plain\" class=\"stream\">",
-			    pieces > 1 ? "</script>\n" : "");
+			mr_print(s, "%s%s", pieces > 1 ? after : "", before);
 		mr_put_base64(s, piece, n);
 	}
-	mr_print(s, "</script>\n");
+	mr_print(s, "%s", after);
 	return ferror(file) ? failed(s->ctx) : s->status;
+}
+
+/* Model N stands in PAGE.N.js beside PAGE.html. */
+static char *
+name_beside(mr_ctx *ctx, const mr_page *page)
+{
+	size_t stem = strlen(page->beside) - strlen(".html");
+
+	return mr_format(ctx, "%.*s.%zu.js", (int)stem, page->beside, page->models);
+}
+
+/* Writes the file of the model that is complete, if it goes beside the page. */
+static mr_status
+write_beside(mr_ctx *ctx, mr_page *page)
+{
+	mr_page_stream *other = &page->other;
+	mr_sink sink;
+
+	if (!other->file)
+		return MR_OK;
+	MR_TRY(mr_writer_end(ctx, other->writer));
+	MR_TRY(check_size(ctx, lseek(fileno(other->file), 0, SEEK_CUR), &page->pictures));
+	MR_TRY(mr_sink_open(ctx, name_beside(ctx, page), false, &sink));
+	MR_TRY(mr_sink_close(&sink, put_stream(&sink, other->file, "mrPart(\"", "\");\n")));
+	free_stream(other);
+	return MR_OK;
+}
+
+/* What the page's stream has of a frame that is beside it: whose file that is, as a part of an address. */
+static mr_status
+put_reference(mr_ctx *ctx, mr_page *page, const mr_frame *frame)
+{
+	mr_frame f = { .name = frame->name, .key = frame->key, .number = frame->number };
+	mr_text notes = { .ctx = ctx };
+
+	if (page->from)
+		mr_text_add(&notes, "file %s\n", mr_format_stem(ctx, page->from));
+	mr_text_add(&notes, "beside ");
+	for (const char *s = mr_file_name(name_beside(ctx, page)); *s; s++) {
+		unsigned byte = (unsigned char)*s;
+		mr_text_add(&notes, byte <= ' ' || strchr("%?#\\", *s) ? "%%%02X" : "%c", byte);
+	}
+	mr_text_add(&notes, "\n");
+	MR_TRY(mr_frame_put(ctx, &f, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n));
+	return put_frame(ctx, &page->stream, &f);
+}
+
+mr_status
+mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers)
+{
+	mr_frame shown = { .name = frame->name, .key = frame->key, .number = frame->number };
+	displaced surface;
+	bool beside;
+
+	if (frame->key)
+		MR_TRY(write_beside(ctx, page));
+	page->models += frame->key;
+	beside = page->beside && page->models > 1;
+	MR_TRY(find_displaced(ctx, page, frame, layers, &surface));
+	MR_TRY(check_layers(ctx, frame, layers, &surface));
+	if (is_posable(frame, layers))
+		MR_TRY(check_posing(ctx, frame));
+	MR_TRY(take_frame(ctx, frame, page, layers, &surface, &shown));
+	if (beside)
+		MR_TRY(put_reference(ctx, page, frame));
+	MR_TRY(put_frame(ctx, beside ? &page->other : &page->stream, &shown));
+	page->frames++;
+	page->packed |= surface.packed;
+	return MR_OK;
 }
 
 static mr_status
@@ -541,7 +607,8 @@ put_page(mr_sink *s, const mr_page *page, const char *html)
 
 	MR_ENTER(s->ctx);
 	mr_put(s, html, (size_t)(at - html));
-	MR_TRY(put_stream(s, page->file));
+	MR_TRY(
+	    put_stream(s, page->stream.file, "<script type=\"text/plain\" class=\"stream\">", "</script>\n"));
 	MR_TRY(mr_page_pictures_put(s, &page->pictures));
 	mr_put(s, at + strlen(mark), strlen(at + strlen(mark)));
 	return s->status;
@@ -556,8 +623,9 @@ mr_page_write(mr_ctx *ctx, mr_page *page, const char *html, const char *path, mr
 	if (page->pack > 0 && !page->packed)
 		return mr_fail(
 		    ctx, MR_EMISSING, "no frame has a displaced surface to pack: mr-sample makes one");
-	MR_TRY(mr_writer_end(ctx, page->writer));
-	MR_TRY(check_size(ctx, lseek(fileno(page->file), 0, SEEK_CUR), &page->pictures));
+	MR_TRY(write_beside(ctx, page));
+	MR_TRY(mr_writer_end(ctx, page->stream.writer));
+	MR_TRY(check_size(ctx, lseek(fileno(page->stream.file), 0, SEEK_CUR), &page->pictures));
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));
 	sink.hold = true;
 	MR_TRY(mr_sink_close(&sink, put_page(&sink, page, html)));
@@ -568,8 +636,7 @@ mr_page_write(mr_ctx *ctx, mr_page *page, const char *html, const char *path, mr
 void
 mr_page_free(mr_page *page)
 {
-	mr_writer_free(page->writer);
-	if (page->file)
-		fclose(page->file);
+	free_stream(&page->stream);
+	free_stream(&page->other);
 	*page = (mr_page){ 0 };
 }

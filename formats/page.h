@@ -44,13 +44,20 @@ mr_status mr_page_pictures_put(mr_sink *s, const mr_page_pictures *p) MR_WARN_UN
 /* n bytes as text; only the last ones of an element may be no multiple of 3. */
 void mr_put_base64(mr_sink *s, const unsigned char *p, size_t n);
 
+/* A stream on the way, in a file without a name. */
+typedef struct mr_page_stream {
+	FILE *file;
+	mr_writer *writer;
+} mr_page_stream;
+
 /* A page in the making; starts zeroed. */
 typedef struct mr_page {
 	double pack; /* the caller's: mean error of displaced surfaces, as a share of the diagonal; 0: none */
 	bool packed; /* whether there was one */
-	FILE *file;  /* without a name: the stream, until the page is written */
-	mr_writer *writer;
-	size_t frames;
+	const char
+	    *beside; /* the caller's: the page's path, beside which models but the first go; NULL: in it */
+	mr_page_stream stream, other; /* of the page; of the model that goes beside it */
+	size_t frames, models;
 	mr_page_pictures pictures;
 	const char *from; /* the caller's to set: the file that frames come from now; NULL: none to be told */
 } mr_page;

@@ -5,6 +5,7 @@ import { Drawn } from "./draw/drawn.js";
 import { Pictures } from "./draw/pictures.js";
 import { firstLayer, layersOf } from "./stream/layers.js";
 import { setLevel, showLevel } from "./mesh/levels.js";
+import { bring } from "./mesh/models.js";
 import { hitAt } from "./draw/pick.js";
 import { rowsOf, tell } from "./picked.js";
 import { Painter } from "./paint/painter.js";
@@ -58,6 +59,7 @@ export class App {
 	async refresh() {
 		const frame = this.frames[this.choice.frame];
 
+		await bring(frame, this.frames);
 		setLevel(frame, this.choice.level);
 		this.painter.dress(frame);
 		const layers = layersOf(frame);

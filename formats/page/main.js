@@ -5,10 +5,8 @@ import { begin as loadLibrary } from "./library/compile.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
 import { listModels } from "./models.js";
-import { addLevels } from "./mesh/levels.js";
-import { addPacked } from "./mesh/packed.js";
+import { readFrames } from "./mesh/models.js";
 import { canDraw } from "./draw/stage.js";
-import { parseStream } from "./stream/stream.js";
 
 const CLICK = 6; /* pixels that a click may move */
 const $ = (id) => document.getElementById(id);
@@ -81,9 +79,7 @@ async function begin() {
 	await loadLibrary().catch(() => {
 		throw new Error("This browser is too old for the page: it has no WebAssembly with vectors.");
 	});
-	const frames = await parseStream(takeBytes());
-	frames.forEach(addPacked);
-	frames.forEach(addLevels);
+	const frames = await readFrames(takeBytes());
 	$("side").hidden = false;
 	const app = window.mrView = new App(frames, takePictures()); /* for the console, and the tests */
 	const film = new Film(frames.length, (frame) => {

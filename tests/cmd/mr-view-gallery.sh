@@ -27,6 +27,11 @@ cp cube.mrs "a b's <i>.x.mrs" && cp cube.mrs .mrs
 mr-view page.html cube.mrs - cube.mrs "a b's <i>.x.mrs" ./.mrs <cube.mrs && told page.html
 echo '-- the same bytes again, in --stats all frames'
 mr-view -j 3 --stats stats again.html cube.mrs - cube.mrs "a b's <i>.x.mrs" ./.mrs <cube.mrs && cmp page.html again.html && grep -o '"frame":[0-9]*' stats
+echo '-- models but the first in files beside it: the same frames'
+mr-view -q --beside beside.html film.mrs cube.mrs ball.obj film.mrs && told beside.html && ls beside.*
+for i in 2 3 4; do
+	tr -d '\n' <beside.$i.js | sed -E 's/^mrPart\("([^"]*)"\);$/\1/' | base64 -d | mr-info --json --no-intersections | tr , '\n' | grep -c '"frame"'
+done
 echo '-- one that fails leaves no page'
 head -c 1000 film.mrs >cut.mrs
 for files in 'cube.mrs absent.mrs' 'cut.mrs cube.mrs' 'cube.mrs cut.mrs' 'cube.mrs page.html'; do

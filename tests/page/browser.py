@@ -3,18 +3,20 @@ pictures.
 
 It draws by software, which takes most of the time of a test: half as fine as others do, unless a test asks for more,
 and not at all
-where a test asks for no picture.  A page may say nothing to the console and ask for no address but its own: what it
-does of either is in `said`.
+where a test asks for no picture.  A page may say nothing to the console and ask for no address but its own, and those
+of its models beside it, PAGE.N.js: what it does else is in `said`.
 """
 import base64
 import functools
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
 import tempfile
 import time
+import urllib.parse
 import zlib
 
 PROGRAM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -131,7 +133,8 @@ class Browser:
             self.said.append("dialog: " + what["message"])
         elif kind == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("data:", "about:",
             "blob:")):
-            if what["request"]["url"] != self.url:
+            beside = re.escape(self.url[:-len("html")]) + "[0-9]+[.]js"
+            if what["request"]["url"] != self.url and not re.fullmatch(beside, what["request"]["url"]):
                 self.said.append("request: " + what["request"]["url"])
 
     def size(self, width, height, mobile=False, scale=None):
@@ -169,7 +172,7 @@ class Browser:
 
     def open(self, path, seconds=60):
         """Seconds until the page has drawn its first picture."""
-        self.url = "file://" + os.path.abspath(path)
+        self.url = "file://" + urllib.parse.quote(os.path.abspath(path))
         began = time.monotonic()
         self.call("Page.navigate", url=self.url)
         if not self.wait(

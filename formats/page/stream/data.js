@@ -36,3 +36,17 @@ export function takeBytes() {
 	}
 	return join(parts);
 }
+
+/* The bytes of a model in a file beside the page: a script that calls mrPart with them, in base64. */
+export async function takeBeside(file) {
+	const parts = [], script = document.createElement("script");
+
+	window.mrPart = (text) => parts.push(decode(text));
+	await new Promise((done, fail) => {
+		script.onload = done;
+		script.onerror = () => fail(new Error("The file of this model is not beside the page: " + file));
+		script.src = "./" + file;
+		document.head.append(script);
+	}).finally(() => script.remove());
+	return join(parts);
+}

@@ -72,6 +72,8 @@ async function understand(frame) {
 		const [how, layer, name, ...more] = line.split(" ");
 		if (how === "file")
 			frame.file = line.slice(5);
+		else if (how === "beside")
+			frame.beside = layer;
 		else if (how === "surface")
 			frame.displaced = { layer, vertices: [name, ...more].map(Number) };
 		else if (how === "packed")
