@@ -28,6 +28,8 @@ surface_open(const unsigned char *byte, size_t size)
 		return NULL;
 	mr_ctx_init(&s->ctx, 1);
 	s->status = mr_packed_open(&s->ctx, (mr_packed_bytes){ byte, size }, &s->p, &s->bits, &s->missing);
+	if (s->status == MR_OK)
+		s->status = mr_packed_levels(&s->ctx, &s->p, true);
 	s->opened = mr_mark_take(&s->ctx);
 	return s;
 }

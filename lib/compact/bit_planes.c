@@ -21,6 +21,8 @@ typedef struct coding {
 	size_t n;
 	mr_bit_planes *f;
 	uint32_t *known; /* level[n].nv */
+	uint32_t
+	    *beside; /* of an odd vertex: the sum of its neighbours' sizes, each below 2^MR_BIT_PLANES_MOST */
 	field_odds *odds;
 } coding;
 
@@ -30,61 +32,83 @@ size_of(uint32_t known)
 	return known & ~NEGATIVE;
 }
 
-/* Sums over the neighbours of a coefficient and over the ends of its edge: sizes, in halves of the plane's
- * bit, and signs. */
-typedef struct around {
-	uint32_t beside, ends;
-	int sign;
-} around;
-
-static inline void
-look_beside(uint32_t known, unsigned plane, around *a)
+static int
+sign_of(uint32_t known)
 {
-	uint32_t size = size_of(known) << 1 >> plane;
-
-	a->beside += size < 64 ? size : 64;
-	a->sign += known == 0 ? 0 : known & NEGATIVE ? -1 : 1;
+	return known == 0 ? 0 : known & NEGATIVE ? -1 : 1;
 }
 
-/* The odd vertex on half-edge h of the coarse level. */
-static inline uint32_t
-odd_on(const mr_loop *fine, uint32_t h)
+/* What the context of a coefficient sees: sums of sizes, in halves of the plane's bit, over its neighbours
+ * and over the ends of its edge. */
+typedef struct around {
+	uint64_t beside, ends;
+} around;
+
+/* The neighbours of the odd vertex on half-edge h of the coarse level: those on the other edges of its faces,
+ * which on a boundary count twice. */
+static void
+find_beside(const mr_loop *fine, uint32_t h, uint32_t half[4])
 {
-	return fine->t[4 * (size_t)(h / 3) + 3].v[h % 3];
+	uint32_t g = fine[-1].topo.twin[h];
+
+	g = g == MR_NONE ? h : g;
+	half[0] = mr_he_next(h), half[1] = mr_he_prev(h);
+	half[2] = mr_he_next(g), half[3] = mr_he_prev(g);
+}
+
+/* Odd vertex v of level j has become larger by `more`. */
+static void
+tell_beside(const coding *s, size_t j, size_t v, uint32_t more)
+{
+	const mr_loop *fine = &s->level[j];
+	uint32_t h = fine->edge[v - fine->coarse_nv], half[4];
+	bool open = fine[-1].topo.twin[h] == MR_NONE;
+
+	find_beside(fine, h, half);
+	for (int i = 0; i < (open ? 2 : 4); i++)
+		s->beside[mr_loop_odd(fine, half[i])] += fine[-1].topo.twin[half[i]] == MR_NONE ? 2 * more
+		                                                                                : more;
+}
+
+static int
+sign_beside(const coding *s, size_t j, size_t v)
+{
+	const mr_loop *fine = &s->level[j];
+	uint32_t half[4];
+	int sign = 0;
+
+	find_beside(fine, fine->edge[v - fine->coarse_nv], half);
+	for (int i = 0; i < 4; i++)
+		sign += sign_of(s->known[mr_loop_odd(fine, half[i])]);
+	return sign;
 }
 
 static inline around
 around_odd(const coding *s, size_t j, size_t v, unsigned plane)
 {
 	const mr_loop *fine = &s->level[j], *coarse = fine - 1;
-	uint32_t h = fine->edge[v - coarse->nv], g = coarse->topo.twin[h], ends[2];
-	around a = { 0 };
+	uint32_t h = fine->edge[v - coarse->nv];
+	uint64_t ends = (uint64_t)size_of(s->known[mr_loop_from(coarse, h)]) +
+	                size_of(s->known[mr_loop_to(coarse, h)]);
 
-	g = g == MR_NONE ? h : g;
-	look_beside(s->known[odd_on(fine, mr_he_next(h))], plane, &a);
-	look_beside(s->known[odd_on(fine, mr_he_prev(h))], plane, &a);
-	look_beside(s->known[odd_on(fine, mr_he_next(g))], plane, &a);
-	look_beside(s->known[odd_on(fine, mr_he_prev(g))], plane, &a);
-	ends[0] = mr_loop_from(coarse, h);
-	ends[1] = mr_loop_to(coarse, h);
-	for (int i = 0; i < 2; i++) {
-		uint32_t size = size_of(s->known[ends[i]]) << 1 >> plane;
-		a.ends += size < 64 ? size : 64;
-	}
-	return a;
+	return (around){ (uint64_t)s->beside[v] << 1 >> plane, ends << 1 >> plane };
 }
 
+/* Of a control vertex: four times the mean of its neighbours; their signs. */
 static around
-around_control(const coding *s, size_t v, unsigned plane)
+around_control(const coding *s, size_t v, unsigned plane, int *sign)
 {
-	around a = { 0 };
-	uint32_t count = 0;
+	enum { MOST = 64 };
+	uint32_t count = 0, sum = 0;
 
+	*sign = 0;
 	for (mr_loop_ring r = mr_loop_ring_begin(s->level, (uint32_t)v); r.more;
-	     mr_loop_ring_step(&r), count++)
-		look_beside(s->known[r.to], plane, &a);
-	a.beside = count ? 4 * a.beside / count : 0;
-	return a;
+	     mr_loop_ring_step(&r), count++) {
+		uint32_t size = size_of(s->known[r.to]) << 1 >> plane;
+		sum += size < MOST ? size : MOST;
+		*sign += sign_of(s->known[r.to]);
+	}
+	return (around){ .beside = count ? 4 * sum / count : 0 };
 }
 
 static inline mr_odds *
@@ -110,13 +134,15 @@ odds_of_further(const coding *s, size_t j, uint32_t above)
 static inline uint32_t
 code_first(const coding *s, size_t j, size_t v, unsigned plane)
 {
-	around a = j ? around_odd(s, j, v, plane) : around_control(s, v, plane);
+	int sign = 0;
+	around a = j ? around_odd(s, j, v, plane) : around_control(s, v, plane, &sign);
 	int32_t x = s->f->x[v];
 	uint32_t size = (uint32_t)(x < 0 ? -x : x);
 
 	if (!mr_code_bit(s->c, odds_of_first(s, j, &a), size >> plane & 1))
 		return 0;
-	bool negative = mr_code_bit(s->c, &s->odds->sign[j > 0][a.sign < 0 ? 0 : a.sign > 0 ? 2 : 1], x < 0);
+	sign = j ? sign_beside(s, j, v) : sign;
+	bool negative = mr_code_bit(s->c, &s->odds->sign[j > 0][sign < 0 ? 0 : sign > 0 ? 2 : 1], x < 0);
 	return 1u << plane | (negative ? NEGATIVE : 0);
 }
 
@@ -138,11 +164,16 @@ code_plane(const coding *s, size_t j, unsigned plane)
 	size_t end = s->level[j].nv;
 
 	for (size_t v = j ? s->level[j].coarse_nv : 0; v < end; v++) {
-		uint32_t known = s->known[v] ? code_further(s, j, v, plane) : code_first(s, j, v, plane);
+		uint32_t was = s->known[v],
+			 known = was ? code_further(s, j, v, plane) : code_first(s, j, v, plane);
 		if (s->c->ended)
 			return;
+		if (!known)
+			continue;
 		s->known[v] = known;
-		if (s->c->reading && known) {
+		if (j && known != was)
+			tell_beside(s, j, v, 1u << plane);
+		if (s->c->reading) {
 			int32_t size = (int32_t)(size_of(known) | 1u << plane >> 1);
 			s->f->x[v] = known & NEGATIVE ? -size : size;
 		}
@@ -186,7 +217,7 @@ mr_bit_planes_code(
 
 	for (size_t i = 0; i < fields; i++)
 		s[i] = (coding){ c, level, n, &f[i], MR_NEW_ZERO(ctx, level[n].nv, uint32_t),
-			MR_NEW_ZERO(ctx, 1, field_odds) };
+			MR_NEW_ZERO(ctx, level[n].nv, uint32_t), MR_NEW_ZERO(ctx, 1, field_odds) };
 	for (unsigned p = mr_bit_planes_passes(f, fields, n); p-- > 0;) {
 		for (size_t j = 0; j <= n; j++)
 			for (size_t i = 0; i < fields && !c->ended; i++)

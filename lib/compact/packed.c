@@ -112,14 +112,17 @@ mr_packed_room(size_t head, size_t size)
 }
 
 mr_status
-mr_packed_levels(mr_ctx *ctx, mr_packed *p)
+mr_packed_levels(mr_ctx *ctx, mr_packed *p, bool faces)
 {
 	mr_v3 *position = MR_NEW(ctx, p->control.nv, mr_v3);
 	mr_mesh m = { "control", position, p->control.t, p->control.nv, p->control.nf };
 	mr_loop *level = MR_NEW(ctx, p->n + 1, mr_loop);
+	bool light = !faces && p->n > 0;
 
 	mr_packed_positions(p, position);
-	MR_TRY(mr_loop_levels(ctx, &m, 180, p->control.crease, p->n, level));
+	MR_TRY(mr_loop_levels(ctx, &m, 180, p->control.crease, p->n - light, level));
+	if (light)
+		mr_loop_refine_vertices(ctx, &level[p->n - 1], &level[p->n]);
 	p->level = level;
 	return MR_OK;
 }
@@ -249,7 +252,7 @@ get_head(mr_ctx *ctx, input *in, mr_packed *p, size_t *total)
 	return in->bad ? mr_fail(ctx, MR_EFORMAT, "its head is damaged") : MR_OK;
 }
 
-/* Reads the control mesh and makes the levels; refuses more of them than a file of this size may have. */
+/* Reads the control mesh; refuses more levels of it than a file of this size may have. */
 static mr_status
 get_control(mr_ctx *ctx, const input *in, size_t size, mr_packed *p)
 {
@@ -265,7 +268,7 @@ get_control(mr_ctx *ctx, const input *in, size_t size, mr_packed *p)
 	level = (mr_loop){ .nv = m.nv, .nf = m.nf, .t = m.t, .topo = topo };
 	if (mr_loop_count(m.nv, m.nf, mr_loop_boundary(&level), p->n) / MOST_A_BYTE > size + FEW)
 		return mr_fail(ctx, MR_EFORMAT, "%zu levels are more than so few bytes can mean", p->n);
-	return mr_packed_levels(ctx, p);
+	return MR_OK;
 }
 
 /* Puts the blocks together, each as its checksum says; the last one may be cut off, and is then not checked.

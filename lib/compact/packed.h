@@ -30,8 +30,9 @@ typedef struct mr_packed_bytes {
 	size_t size;
 } mr_packed_bytes;
 
-/* The levels of the control mesh, in the arena.  MR_EMESH where it is no oriented manifold. */
-mr_status mr_packed_levels(mr_ctx *ctx, mr_packed *p);
+/* The levels of the control mesh, in the arena, the finest with its faces or without them.  MR_EMESH where it
+ * is no oriented manifold. */
+mr_status mr_packed_levels(mr_ctx *ctx, mr_packed *p, bool faces);
 
 /* The positions of the control vertices: p->control.nv, the caller's. */
 void mr_packed_positions(const mr_packed *p, mr_v3 *position);

@@ -175,6 +175,33 @@ leave_even(void *arg, size_t begin, size_t end)
 	}
 }
 
+static void
+number_odd(const mr_loop *coarse, uint32_t *edge, uint32_t *odd)
+{
+	uint32_t v = (uint32_t)coarse->nv;
+
+	for (uint32_t h = 0; h < 3 * coarse->nf; h++) {
+		if (is_lower(coarse, h)) {
+			*edge++ = h;
+			odd[h] = v++;
+		} else {
+			odd[h] = odd[coarse->topo.twin[h]];
+		}
+	}
+}
+
+void
+mr_loop_refine_vertices(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine)
+{
+	size_t half = 3 * coarse->nf, nv = coarse->nv + (half + mr_loop_boundary(coarse)) / 2;
+	uint32_t *edge = MR_NEW(ctx, nv - coarse->nv, uint32_t), *odd = MR_NEW(ctx, half, uint32_t);
+
+	number_odd(coarse, edge, odd);
+	*fine = (mr_loop){
+		.nv = nv, .nf = 4 * coarse->nf, .coarse_nv = coarse->nv, .edge = edge, .odd = odd
+	};
+}
+
 mr_status
 mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine)
 {
@@ -191,7 +218,7 @@ mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine)
 	mr_parallel(ctx, half, r.piece, number_edges, &r);
 	mr_parallel(ctx, coarse->nf, GRAIN, cut_faces, &r);
 	mr_parallel(ctx, coarse->nv, GRAIN, leave_even, &r);
-	*fine = (mr_loop){ nv, nf, r.t, r.topo, r.crease, coarse->nv, r.edge };
+	*fine = (mr_loop){ nv, nf, r.t, r.topo, r.crease, coarse->nv, r.edge, NULL };
 	return MR_OK;
 }
 

@@ -23,6 +23,7 @@ typedef struct mr_loop {
 	const bool *crease;   /* of each half-edge; NULL: no crease but the boundary */
 	size_t coarse_nv;     /* vertices of the level below, which come first; nv where there is none */
 	const uint32_t *edge; /* of odd vertex coarse_nv + i: its half-edge on the level below */
+	const uint32_t *odd;  /* of each half-edge on the level below: its odd vertex; NULL: t has them */
 } mr_loop;
 
 /*
@@ -34,6 +35,9 @@ mr_status mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, const ui
 
 /* The next level, in the arena.  MR_ERANGE where it would have 2^32 half-edges or more. */
 mr_status mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine);
+
+/* The same without faces: t, topo and crease are empty. */
+void mr_loop_refine_vertices(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine);
 
 /* Boundary edges of a level. */
 size_t mr_loop_boundary(const mr_loop *l);

@@ -26,6 +26,13 @@ mr_loop_opposite(const mr_loop *l, uint32_t h)
 	return l->t[h / 3].v[(h + 2) % 3];
 }
 
+/* The odd vertex on half-edge h of the level below. */
+static inline uint32_t
+mr_loop_odd(const mr_loop *fine, uint32_t h)
+{
+	return fine->odd ? fine->odd[h] : fine->t[4 * (size_t)(h / 3) + 3].v[h % 3];
+}
+
 /* A boundary or a crease. */
 static inline bool
 mr_loop_sharp(const mr_loop *l, uint32_t h)

@@ -164,7 +164,7 @@ pack_all(mr_ctx *ctx, packing *k, mr_domain *d)
 	mr_control_write(ctx, &k->head, &grid, &k->level[0].topo, &k->order);
 	mr_coder_finish(&k->head);
 	k->p.control = k->order.m;
-	MR_TRY(mr_packed_levels(ctx, &k->p));
+	MR_TRY(mr_packed_levels(ctx, &k->p, true));
 	k->origin = mr_packed_origin(ctx, &k->level[k->p.n], &k->p.level[k->p.n], k->p.n, &k->order);
 	domain_of_packed(ctx, &k->p, d);
 	k->p.fields = 1;
@@ -495,6 +495,7 @@ unpack(mr_ctx *ctx, mr_packed_bytes file, const mr_unpack_opts *o, mr_frame **fr
 	if (o->bytes && o->bytes < file.size)
 		file.size = o->bytes;
 	MR_TRY(mr_packed_open(ctx, file, p, &bits, &missing));
+	MR_TRY(mr_packed_levels(ctx, p, false));
 	if (o->level != MR_UNKNOWN && o->level > p->n)
 		return mr_fail(ctx, MR_ERANGE, "level %zu, but it ends with level %zu", o->level, p->n);
 	d.n = o->level == MR_UNKNOWN ? p->n : o->level;

@@ -178,7 +178,7 @@ pack_wave(mr_packed *p, double *height, mr_packed_bytes *file)
 	*p = (mr_packed){
 		.name = "wave", .control = order.m, .step = -10, .n = LEVELS, .unit = -12, .fields = 1
 	};
-	assert_int_equal(mr_packed_levels(&ctx, p), MR_OK);
+	assert_int_equal(mr_packed_levels(&ctx, p, true), MR_OK);
 	for (size_t v = 0; v < p->level[LEVELS].nv; v++)
 		height[v] = 0.2 * sin(0.37 * (double)v) + 0.1;
 	assert_int_equal(mr_packed_put_heights(&ctx, p, height), MR_OK);
@@ -204,6 +204,7 @@ test_prefixes_come_near(void **state)
 		assert_int_equal(
 		    mr_packed_open(&ctx, (mr_packed_bytes){ file.byte, size }, &q, &there, &missing), MR_OK);
 		assert_int_equal(missing > 0, there.size < bits.size);
+		assert_int_equal(mr_packed_levels(&ctx, &q, false), MR_OK);
 		mr_packed_read_fields(&ctx, &q, there, LEVELS);
 		mr_packed_heights(&q, LEVELS, given);
 		for (size_t v = 0; v < q.level[LEVELS].nv; v++)
@@ -212,6 +213,7 @@ test_prefixes_come_near(void **state)
 		last = most;
 	}
 	assert_int_equal(mr_packed_open(&ctx, file, &q, &bits, &missing), MR_OK);
+	assert_int_equal(mr_packed_levels(&ctx, &q, false), MR_OK);
 	mr_packed_read_fields(&ctx, &q, bits, LEVELS);
 	mr_packed_heights(&q, LEVELS, given);
 	for (size_t v = 0; v < q.level[LEVELS].nv; v++)

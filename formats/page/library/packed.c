@@ -70,6 +70,7 @@ unpack(unpacked *u, mr_packed_bytes file, mr_control_order *order, const uint8_t
 	size_t missing, nv;
 
 	MR_TRY(mr_packed_open(&u->ctx, file, &u->p, &bits, &missing));
+	MR_TRY(mr_packed_levels(&u->ctx, &u->p, true));
 	order->m = u->p.control;
 	order->half = all_halves(&u->ctx, order->half, order->m.nf);
 	nv = u->p.level[u->p.n].nv;
