@@ -29,9 +29,12 @@ export function layersOf(frame) {
 	return layers;
 }
 
-/* The name of the layer that is shown first: the one worked on last, else mesh, control, points or base (mr 7). */
+/* The name of the layer that is shown first: the one worked on last, else mesh, control, points or base (mr 7).
+ * Displacement is shown by its surface. */
 export async function firstLayer(frame, layers) {
-	const order = [...await linesOf(frame, "", "latest"), "mesh", "control", "points", "base"];
+	const latest = await linesOf(frame, "", "latest"), surface = frame.displaced && frame.displaced.layer;
+	const order = [...latest.map((name) => name === "displacement" && surface || name),
+		"mesh", "control", "points", "base"];
 	const found = order.find((name) => layers.some((l) => l.name === name));
 
 	return found || layers[0].name;
