@@ -81,10 +81,9 @@ add_vertex(growing *g, uint32_t old, mr_grid_point p, bool first)
 	uint32_t v = (uint32_t)g->nv;
 	mr_number_odds *odds = g->odds->axis[first];
 
-	if (g->nv == g->m.nv) {
-		g->bad = true;
+	g->bad |= g->nv == g->m.nv || g->c->ended;
+	if (g->bad)
 		return 0;
-	}
 	for (int i = 0; i < 3; i++) {
 		int64_t x = mr_code_number(g->c, &odds[i], g->from ? g->from->p[old].x[i] - p.x[i] : 0);
 		x += p.x[i];
