@@ -58,7 +58,7 @@ LIBS     := -Wl,--as-needed -lcamd -lcholmod -lumfpack -llz4 -ltinyobjloader_dou
 # What knows MPI: `make mpi`.
 MPICC   := mpicc
 MPI     := lib/solve/mumps.c cmd/mpi.c
-TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
+TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,cmd/mr.c $(wildcard cmd/mr-*.c))
 OBJECTS := $(patsubst %,$(BUILD)/%.o,$(filter-out $(MPI),$(sort $(wildcard lib/*/*.c lib/*/*.cc formats/*.c \
 		formats/*.cc))))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
@@ -79,12 +79,16 @@ RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DA
 # V=1 shows the commands.
 say = $(if $(V),,@echo "  $(1) $@";)
 
+LINK = $(if $(V),,@)mkdir -p $(@D) $(if $(V),,&& echo "  link    $@") && \
+	$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS)
+
 all: $(TOOLS) $(BUILD)/web/mrz.js $(BUILD)/web/mrz.wasm
 
-$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd findings options place \
+$(BUILD)/bin/mr-%: $(BUILD)/cmd/mr-%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd findings help options place \
 		signals) $(BUILD)/libmr.a
-	@mkdir -p $(@D)
-	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS)
+	$(LINK)
+$(BUILD)/bin/mr: $(BUILD)/cmd/mr.c.o $(BUILD)/cmd/options.c.o $(BUILD)/libmr.a
+	$(LINK)
 
 $(BUILD)/bin/mr-view: $(BUILD)/page/page.o
 

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "findings.h"
 #include "formats/filename.h"
+#include "help.h"
 #include "mesh/validate.h"
 #include "place.h"
 #include "signals.h"
@@ -24,7 +25,7 @@ struct cmd_state {
 	cmd_args args;
 	const char *input; /* of a sink: -i */
 	const char *stats_path;
-	bool help, version, no_history;
+	bool help, describe, version, no_history;
 
 	char *history; /* the line this command adds */
 	mr_writer *writer;
@@ -231,20 +232,6 @@ show_progress(void *user, const char *what, double share)
 
 /* The command line */
 
-static void
-print_help(const cmd *c, const cmd_opt *standard)
-{
-	const cmd_tool *tool = c->tool;
-
-	printf("usage: %s [options] %s\n%s\n\n", c->name, tool->operands ? tool->operands : "[FILE...]",
-	    tool->summary);
-	cmd_print_options(stdout, tool->options);
-	if (tool->options)
-		putchar('\n');
-	cmd_print_options(stdout, standard);
-	printf("\nSee also: man %s, man 7 mr\n", c->name);
-}
-
 /* Adds a word to the line, in quotes where a shell would need them. */
 static void
 append_word(mr_text *line, const char *word)
@@ -335,6 +322,8 @@ parse_command_line(cmd *c, int argc, char **argv)
 		{ 'v', "verbose", CMD_FLAG, &c->verbose, 0, 0, "", "say what is being done", NULL },
 		{ 'q', "quiet", CMD_FLAG, &c->quiet, 0, 0, "", "show neither warnings nor progress", NULL },
 		{ 'h', "help", CMD_FLAG, &s->help, 0, 0, "", "print this and exit", NULL },
+		{ 0, "describe", CMD_FLAG, &s->describe, 0, 0, "", "print the options as JSON and exit",
+		    NULL },
 		{ 'V', "version", CMD_FLAG, &s->version, 0, 0, "", "print the version and exit", NULL },
 		{ 'i', "input", CMD_TEXT, &s->input, 0, 0, "FILE", "read that stream (default stdin)", NULL },
 		{ 0 },
@@ -351,13 +340,16 @@ parse_command_line(cmd *c, int argc, char **argv)
 		}
 	parsed = cmd_parse(&c->ctx, argc, argv, tables, &s->args);
 	if (s->help)
-		print_help(c, heeded);
+		cmd_help(c, heeded);
+	else if (s->describe)
+		cmd_describe(c, heeded);
 	else if (s->version)
 		printf("%s (mr) %s\n", c->name, MR_VERSION);
-	if ((s->help || s->version) && (fflush(stdout) || ferror(stdout)))
-		die(c, fail_system(c, "stdout"));
-	if (s->help || s->version)
+	if (s->help || s->describe || s->version) {
+		if (fflush(stdout) || ferror(stdout))
+			die(c, fail_system(c, "stdout"));
 		exit(EXIT_GOOD);
+	}
 	try(c, parsed);
 	if (c->layer && cmd_list_lacks(c->layer)) /* what else it may be is the tool's: of one it is a list */
 		try(c, cmd_layer_name(c, "--layer", ""));

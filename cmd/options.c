@@ -186,9 +186,8 @@ find(const cmd_opt *const tables[2], char letter, const char *name, size_t lengt
 	return NULL;
 }
 
-/* How many letters differ between what two words begin and end with alike; 0 where b goes on behind a. */
-static size_t
-unlike(const char *a, size_t n, const char *b)
+size_t
+cmd_unlike(const char *a, size_t n, const char *b)
 {
 	size_t m = strlen(b), shorter = n < m ? n : m, head = 0, tail = 0;
 
@@ -208,7 +207,7 @@ fail_unknown(mr_ctx *ctx, const cmd_opt *const tables[2], const char *word, size
 
 	for (int k = 0; k < 2; k++)
 		for (const cmd_opt *o = tables[k]; o && o->name; o++) {
-			size_t d = unlike(name, letters, o->name);
+			size_t d = cmd_unlike(name, letters, o->name);
 			if (d < best) {
 				best = d;
 				like = o->name;
@@ -379,5 +378,105 @@ cmd_print_options(FILE *out, const cmd_opt *table)
 		if (!strstr(o->help, "(default"))
 			print_default(out, o);
 		fputc('\n', out);
+	}
+}
+
+static void
+describe_words(mr_text *t, const char *words)
+{
+	for (const char *between = "\"choices\":["; *words; between = ",") {
+		size_t n = strcspn(words, "|");
+		mr_text_add(t, "%s", between);
+		mr_text_json(t, words, n);
+		words += n + (words[n] == '|');
+	}
+	mr_text_add(t, "],");
+}
+
+/* A number by a name, with a comma; none where it is not finite. */
+static void
+describe_number(mr_text *t, const char *name, double x)
+{
+	if (!isfinite(x))
+		return;
+	mr_text_add(t, "\"%s\":", name);
+	mr_text_number(t, x);
+	mr_text_add(t, ",");
+}
+
+static void
+describe_string(mr_text *t, const char *name, const char *s)
+{
+	if (!s || !*s)
+		return;
+	mr_text_add(t, "\"%s\":", name);
+	mr_text_json(t, s, strlen(s));
+	mr_text_add(t, ",");
+}
+
+/* The default, unless `help` says what stands for it. */
+static void
+describe_default(mr_text *t, const cmd_opt *o)
+{
+	const char *word = o->metavar;
+	size_t i;
+
+	if (strstr(o->help, "(default"))
+		return;
+	switch (o->kind) {
+	case CMD_REAL:
+	case CMD_SHARE:
+	case CMD_LENGTH:
+		describe_number(t, "default", *(double *)o->value);
+		break;
+	case CMD_COUNT:
+		describe_number(t, "default", (double)*(size_t *)o->value);
+		break;
+	case CMD_CHOICE:
+		for (i = (size_t) * (int *)o->value; i > 0; i--)
+			word += strcspn(word, "|") + 1;
+		mr_text_add(t, "\"default\":");
+		mr_text_json(t, word, strcspn(word, "|"));
+		mr_text_add(t, ",");
+		break;
+	case CMD_TEXT:
+		describe_string(t, "default", *(const char **)o->value);
+		break;
+	default:
+		break;
+	}
+}
+
+static void
+describe_option(mr_text *t, const cmd_opt *o)
+{
+	static const char *const kinds[] = { "flag", "flag", "real", "share", "count", "choice", "text",
+		"length", "vector", "size", "range", "text" };
+	bool ranged = o->kind == CMD_REAL || o->kind == CMD_SHARE || o->kind == CMD_COUNT ||
+	              o->kind == CMD_SIZE;
+
+	mr_text_add(t, "{");
+	describe_string(t, "name", o->name);
+	describe_string(t, "letter", (char[]){ o->letter, '\0' });
+	describe_string(t, "argument", takes_argument(o) ? o->metavar : NULL);
+	if (o->kind == CMD_CHOICE)
+		describe_words(t, o->metavar);
+	if (ranged) {
+		describe_number(t, "min", o->min);
+		describe_number(t, "max", o->max);
+	}
+	describe_default(t, o);
+	if (o->kind == CMD_CALL)
+		mr_text_add(t, "\"repeats\":true,");
+	describe_string(t, "help", o->help);
+	mr_text_add(t, "\"kind\":\"%s\"}", takes_argument(o) ? kinds[o->kind] : "flag");
+}
+
+void
+cmd_describe_options(mr_text *t, const cmd_opt *table)
+{
+	for (const cmd_opt *o = table; o && o->name; o++) {
+		mr_text_add(t, o == table ? "\n  " : ",\n  ");
+		describe_option(t, o);
 	}
 }

@@ -3,6 +3,7 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include "base/text.h"
 #include "base/vec.h"
 
 typedef enum cmd_kind {
@@ -54,6 +55,13 @@ mr_status cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tab
 
 /* Prints one table for --help, its defaults read from the values. */
 void cmd_print_options(FILE *out, const cmd_opt *table);
+
+/* The options of a table as JSON objects with commas between them. */
+void cmd_describe_options(mr_text *t, const cmd_opt *table);
+
+/* How many letters of a, which has n, and b are left between what they begin and end with alike; 0 where b
+ * begins with a. */
+size_t cmd_unlike(const char *a, size_t n, const char *b);
 
 /* Parses the whole of `text` as a count in [min, max]: MR_EUSAGE with a sentence that begins with `what`. */
 mr_status

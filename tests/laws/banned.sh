@@ -18,7 +18,8 @@ bad=$(search 'atoi|atol|atoll|atof|sprintf|vsprintf|strcpy|strcat|gets|strtok|sc
 [ -z "$bad" ] || { echo "banned:"; echo "$bad"; fail=1; }
 bad=$(search 'printf|vprintf|puts|putchar|perror|exit|_exit|abort|assert|signal' lib formats)
 [ -z "$bad" ] || { echo "the library prints or exits:"; echo "$bad"; fail=1; }
-bad=$(search 'socket|system|popen|fork|vfork|execl|execlp|execv|execve|execvp|posix_spawn|posix_spawnp' lib formats cmd)
+# The front end is there to start the tools.
+bad=$(search 'socket|system|popen|fork|vfork|execl|execlp|execv|execve|execvp|posix_spawn|posix_spawnp' lib formats $(ls -d cmd/* | grep -v '^cmd/mr\.c$'))
 [ -z "$bad" ] || { echo "a connection or another program:"; echo "$bad"; fail=1; }
 # The way of libpng and libjpeg to fail, and ours where memory runs out.
 bad=$(search 'longjmp|setjmp' lib cmd $(ls formats/*.c | grep -vE 'formats/(png|jpeg).c') |

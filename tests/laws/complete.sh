@@ -8,7 +8,7 @@ for source in cmd/mr-*.c; do
 	set -- tests/cmd/"$tool"*.sh
 	[ -f "$1" ] || { echo "$tool: no tests/cmd/$tool*.sh"; fail=1; }
 done
-for page in man/*.1; do
+for page in man/mr-*.1; do
 	tool=$(basename "$page" .1)
 	[ -f "cmd/$tool.c" ] || { echo "$page: no cmd/$tool.c"; fail=1; }
 	for section in NAME SYNOPSIS DESCRIPTION OPTIONS LAYERS MEMORY 'EXIT STATUS' EXAMPLES 'SEE ALSO'; do
