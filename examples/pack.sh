@@ -47,12 +47,13 @@ smallest=
 for n in 300 600 1200 2400 4800 9600; do
 	control -n "$n" | mr-fit -q -o "$work/fit.mrs"
 	attempt --refine 3
-	least= more=0
+	least= error_before=1
 	while
 		[ "$reached" -eq 0 ] || [ "$bytes" -ge "${least:-$((bytes + 1))}" ] || least=$bytes
-		[ $more -eq 0 ] || [ "$reached" -eq 0 -a $more -lt 3 ]
+		better=$(echo "$now $error_before" | awk '{ print $1 < 0.9 * $3 }')
+		[ "$error_before" = 1 ] || [ "$reached" -eq 0 -a "$better" -eq 1 ]
 	do
-		more=$((more + 1))
+		error_before=${now% *}
 		attempt --level $((level + 1))
 	done
 	[ -z "$least" ] || [ "${smallest:-$least}" -ge "$least" ] || break

@@ -44,11 +44,13 @@ mr_packed_put_colors(mr_ctx *ctx, mr_packed *p, const uint8_t (*color)[4])
 	}
 }
 
-/* The value of a colour's field, of 255. */
+/* The value of a colour's field, of 255; a damaged file may have more. */
 static int32_t
 color_at(const mr_packed *p, size_t field, size_t v)
 {
-	return (int32_t)lrint(ldexp(p->field[field].x[v], (int)color_step[field - 1] - (int)p->n));
+	double x = ldexp(p->field[field].x[v], (int)color_step[field - 1] - (int)p->n);
+
+	return (int32_t)lrint(fmin(fmax(x, -1024), 1024));
 }
 
 static uint8_t

@@ -72,7 +72,8 @@ def scan(b):
     print("a page of %d vertices: %d bytes beside its program, coarse after %.2f s, complete after %.2f s"
         % (heights, size, marks["coarse"] / 1000, marks["complete"] / 1000))
     check(heights > 25000 and size < 150000, "%d bytes for %d heights" % (size, heights))
-    check(b.eval("[...mrView.choice.visible]") == ["mesh"], "it opens with " + b.eval("[...mrView.choice.visible].join()"))
+    visible = b.eval("[...mrView.choice.visible]")
+    check(visible == ["mesh"], "it opens with %s" % visible)
     check(marks["coarse"] < marks["complete"], "it is not drawn coarse first")
 
 
