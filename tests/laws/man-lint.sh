@@ -1,5 +1,5 @@
-# The pages are clean mdoc.
+# The pages are clean mdoc.  EXAMPLES come right after DESCRIPTION, which mandoc's order of sections has otherwise.
 command -v mandoc >/dev/null || { echo "no mandoc"; exit 77; }
 cd "$TOP/man" || exit
-out=$(mandoc -T lint -W warning *.[1-9] 2>&1)
+out=$(mandoc -T lint -W warning *.[1-9] 2>&1 | grep -v 'sections out of conventional order: Sh EXIT STATUS$')
 [ -z "$out" ] || { echo "$out"; exit 1; }
