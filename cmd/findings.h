@@ -40,8 +40,8 @@ void findings_collect(findings_book *book, const char *tool, const mr_finding *f
  * judged. */
 mr_status findings_judge(mr_ctx *ctx, findings_book *book, mr_frame *before, mr_frame *after);
 
-/* Says what was found in the frame and is news (say NULL: nobody listens), and lets it carry all that is
- * known of it. */
+/* Says what was found in the frame and is news (say NULL: nobody listens), and lets the frame carry all that
+ * is known of it. */
 mr_status
 findings_settle(mr_ctx *ctx, findings_book *book, mr_frame *f, void (*say)(void *user, const char *text));
 

@@ -44,10 +44,11 @@ made="$(wc -l <"$work/done") made, $(many good) good, $(many poor) poor, $(many 
 made="$made; $(wc -l <"$work/failed.txt") failed"
 
 # A line for each tool of each model, and of these, read twice, a row for each model: columns TOOL.FIGURE, then their
-# numbers.
+# numbers.  The verdict stands for the findings.
 find . -mindepth 2 -maxdepth 2 -name 'mr-*.json' | LC_ALL=C sort |
     xargs -r -d '\n' awk '{ print FILENAME "\t" $0 }' >"$work/all.json"
-sed 's,^\./\([^/]*\)[^	]*	{,\1\t,; s/}$//; s/"name":"\([^"\\]\|\\.\)*",//; s/"//g' "$work/all.json" \
+sed 's,^\./\([^/]*\)[^	]*	{,\1\t,; s/}$//; s/"name":"\([^"\\]\|\\.\)*",//; s/,"findings":{[^}]*}//
+	s/"//g' "$work/all.json" \
 	>"$work/figures"
 awk -F '\t' '
 	pass == 0 { verdict[$1] = $2; next }

@@ -23,7 +23,8 @@ done
 mr-import models/torus-4.ply | mr-export -f off - |
 	awk 'NF == 4 && !n++ { $0 = "3 " $2 " " $4 " " $3 } 1' >models/torus-4.off
 rm models/torus-4.ply
-mr-make boxes -n 200 | mr-export models/-boxes.obj
+mr-make cube -n 200 | mr-transform --translate 0.3,0.2,0.9 -o cube.mrs
+mr-make sphere -n 300 | mr-cat --append cube.mrs - | mr-export models/-crossing.obj # two bodies in one another
 mr-make torus -n 200 | mr-export models/ring.off.gz
 ln -s nothing models/nowhere.ply
 mr-make sphere --points 200 | mr-export models/cloud.pts && mv models/cloud.pts models/CLOUD.PTS
@@ -53,6 +54,7 @@ grep -q "^nowhere.ply	a link to what is not there$" peace/failed.txt || complain
 for verdict in good poor unusable; do
 	cat peace/*/verdict.txt | grep -c "^$verdict"
 done >counts
+grep -q '^poor: crossing' peace/-crossing.obj/verdict.txt || complain "what crosses itself is not poor"
 grep -q "^11 made, $(sed -n 1p counts) good, $(sed -n 2p counts) poor, $(sed -n 3p counts) unusable; 13 failed: " \
 	peace.log ||
     { cat peace.log; complain "the verdicts are not counted"; }
