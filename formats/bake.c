@@ -8,6 +8,7 @@
 #include "formats/filename.h"
 #include "formats/image.h"
 #include "formats/map.h"
+#include "formats/materials.h"
 #include "formats/paint.h"
 #include "render/charts.h"
 
@@ -63,6 +64,10 @@ find_source(mr_ctx *ctx, mr_frame *f, const mr_bake_opts *o, mr_bake_source *s)
 		s->look.per_face = false;
 	}
 	s->colored = s->look.color || is_painted(&s->look);
+	if (!s->colored && m.nf && (m.texcoord || m.corner_texcoord || m.mtllib.bytes))
+		return mr_fail(ctx, MR_EMISSING,
+		    "the source's %s has texture coordinates or materials, but neither a picture nor colours",
+		    layer);
 	return MR_OK;
 }
 
@@ -152,11 +157,11 @@ write_files(mr_ctx *ctx, const mr_baked *b, const char *name)
 {
 	const char *file = mr_file_name(name);
 
-	MR_TRY(mr_map_check_place(ctx, name));
+	MR_TRY(mr_library_check(ctx, name, NULL));
 	MR_TRY(write_picture(ctx, &b->color, name, "color"));
 	MR_TRY(write_picture(ctx, &b->normal, name, "normal"));
-	return mr_map_write_material(ctx, name,
-	    mr_format(ctx, "Kd 1 1 1\n%s%s",
+	return mr_library_write(ctx, name,
+	    mr_format(ctx, "newmtl %s\nKd 1 1 1\n%s%s", file,
 		b->color.pixel ? mr_format(ctx, "map_Kd %s-color.png\n", file) : "",
 		b->normal.pixel ? mr_format(ctx, "norm %s-normal.png\n", file) : ""));
 }

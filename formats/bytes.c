@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/retry.h"
+#include "formats/filename.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -154,6 +155,24 @@ mr_file_bytes_read(mr_ctx *ctx, const char *path, mr_file_bytes *b)
 		MR_TRY(mr_prefix(ctx, gunzip(ctx, &got), "%s", name));
 	*b = got;
 	return MR_OK;
+}
+
+mr_status
+mr_file_read(mr_ctx *ctx, const mr_file *f, mr_file_bytes *b)
+{
+	if (!f->data)
+		return mr_file_bytes_read(ctx, f->name, b);
+	*b = (mr_file_bytes){ .data = f->data, .size = f->size };
+	return MR_OK;
+}
+
+mr_file
+mr_file_copy(mr_ctx *ctx, const void *data, size_t size, const char *suffix)
+{
+	unsigned char *copy = MR_NEW(ctx, size, unsigned char);
+	uint32_t sum = libdeflate_crc32(0, memcpy(copy, data, size), size);
+
+	return (mr_file){ mr_format(ctx, "%08x-%zx%s", (unsigned)sum, size, suffix), copy, size };
 }
 
 /* ---- out ---- */
@@ -362,4 +381,18 @@ mr_sink_close(mr_sink *s, mr_status status)
 	else if (!s->hold)
 		s->status = mr_outfile_keep(s->ctx, &s->file);
 	return s->status;
+}
+
+mr_status
+mr_put_beside(
+    mr_ctx *ctx, const char *path, const char *end, const void *data, size_t bytes, const char **name)
+{
+	const char *beside = mr_format(ctx, "%s%s", mr_path_stem(ctx, path), end);
+	mr_sink s;
+
+	MR_TRY(mr_sink_open(ctx, beside, false, &s));
+	mr_put(&s, data, bytes);
+	MR_TRY(mr_sink_close(&s, MR_OK));
+	*name = mr_file_name(beside);
+	return MR_OK;
 }

@@ -15,6 +15,19 @@ typedef struct mr_file_bytes {
  * mr_file_bytes_end. */
 mr_status mr_file_bytes_read(mr_ctx *ctx, const char *path, mr_file_bytes *b) MR_WARN_UNUSED;
 
+/* A file by its path, or where data is not NULL the bytes of one that is in a stream under that name. */
+typedef struct mr_file {
+	const char *name; /* NULL: no file */
+	const unsigned char *data;
+	size_t size;
+} mr_file;
+
+/* The bytes of either, to be ended likewise. */
+mr_status mr_file_read(mr_ctx *ctx, const mr_file *f, mr_file_bytes *b) MR_WARN_UNUSED;
+
+/* A copy in the arena, named by a checksum and the size: the same bytes have the same name. */
+mr_file mr_file_copy(mr_ctx *ctx, const void *data, size_t size, const char *suffix);
+
 /* Frees the bytes, and returns the status of what was done with them.  Accepts zeroed ones. */
 mr_status mr_file_bytes_end(mr_file_bytes *b, mr_status status);
 
@@ -46,6 +59,11 @@ mr_status mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
 /* Ends the file and gives it its name, if not on hold; after a failure, of `status` or on the way, drops it.
  */
 mr_status mr_sink_close(mr_sink *s, mr_status status) MR_WARN_UNUSED;
+
+/* Writes a file beside that of `path`, called as that is without suffix, then `end`.  *name: without folder.
+ */
+mr_status mr_put_beside(mr_ctx *ctx, const char *path, const char *end, const void *data, size_t bytes,
+    const char **name) MR_WARN_UNUSED;
 
 void mr_sink_flush(mr_sink *s);
 void mr_put(mr_sink *s, const void *data, size_t bytes);

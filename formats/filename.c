@@ -129,3 +129,14 @@ mr_outname_suits(const char *path, const char *suffix)
 	return !strcmp(path, "-") || (end && !strcasecmp(end, suffix)) ||
 	       (stat(path, &st) == 0 && !S_ISREG(st.st_mode));
 }
+
+char *
+mr_path_stem(mr_ctx *ctx, const char *path)
+{
+	const char *name = mr_file_name(path);
+	size_t n = strlen(name) - (mr_suffix_gz(name) ? 3 : 0), at = n;
+
+	while (at > 1 && name[at - 1] != '.')
+		at--;
+	return mr_format(ctx, "%.*s", (int)(name - path) + (int)(at > 1 ? at - 1 : n), path);
+}

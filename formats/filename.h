@@ -23,6 +23,9 @@ bool mr_outname_suits(const char *path, const char *suffix);
 /* The last part of a path: empty where that ends in a slash. */
 const char *mr_file_name(const char *path);
 
+/* The path without the suffix of its last part, .gz or not. */
+char *mr_path_stem(mr_ctx *ctx, const char *path);
+
 /* The name of the format, whatever the case and whether .gz follows or not; NULL: of none. */
 const char *mr_suffix_format(const char *path);
 

@@ -3,7 +3,7 @@
 #ifndef MR_FORMATS_H
 #define MR_FORMATS_H
 
-#include "base/outfile.h"
+#include "formats/bytes.h"
 #include "mesh/mesh.h"
 
 /* Reports `count` of what the words say; nothing of none. */
@@ -40,8 +40,9 @@ typedef struct mr_model {
 	const uint32_t *polygon;                   /* nf: the polygon that the triangle is a part of */
 	mr_lines groups, objects, materials;       /* names */
 	mr_lines mtllib;                           /* files of materials, as the file names them */
+	const mr_file *file;                       /* of these and their pictures, those in the stream */
 	const mr_property *property;               /* properties of them */
-	size_t nv, nf, properties;
+	size_t nv, nf, properties, files;
 	mr_import_result counts; /* of a model that was read */
 } mr_model;
 

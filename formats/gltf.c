@@ -213,7 +213,7 @@ digit64(char c)
 }
 
 static mr_status
-decode64(mr_gltf *g, size_t number, const char *text, mr_gltf_buffer *b)
+decode64(mr_gltf *g, const char *text, mr_gltf_buffer *b)
 {
 	size_t n = strlen(text), bytes = 0;
 	unsigned char *data = mr_alloc(g->ctx, n / 4 * 3 + 3, 1);
@@ -224,7 +224,7 @@ decode64(mr_gltf *g, size_t number, const char *text, mr_gltf_buffer *b)
 	for (size_t i = 0; i < n; i++) {
 		unsigned d = digit64(text[i]);
 		if (d == 64)
-			return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu: no base 64 in its URI", number);
+			return mr_fail(g->ctx, MR_EFORMAT, "no base 64 in its URI");
 		held = (held << 6 | d) & 0xffff;
 		bits += 6;
 		if (bits >= 8) {
@@ -238,7 +238,7 @@ decode64(mr_gltf *g, size_t number, const char *text, mr_gltf_buffer *b)
 
 /* The file that a URI names. */
 static mr_status
-read_file(mr_gltf *g, size_t number, const char *uri, mr_gltf_buffer *b)
+read_file(mr_gltf *g, const char *uri, mr_gltf_buffer *b)
 {
 	char *name = mr_format(g->ctx, "%s", uri);
 	mr_file_bytes file = { 0 };
@@ -254,30 +254,34 @@ read_file(mr_gltf *g, size_t number, const char *uri, mr_gltf_buffer *b)
 	}
 	path = mr_file_beside(g->ctx, g->path, name, n);
 	if (!path)
-		return mr_fail(
-		    g->ctx, MR_EFORMAT, "buffer %zu is the file %.100s, which is missing", number, uri);
+		return mr_fail(g->ctx, MR_EFORMAT, "the file %.100s is missing", uri);
 	MR_TRY(mr_file_bytes_read(g->ctx, path, &file));
 	mr_own(g->ctx, mr_memory_free, file.memory);
 	*b = (mr_gltf_buffer){ file.data, file.size };
 	return MR_OK;
 }
 
-/* The bytes of a buffer: of the GLB, in the URI, or in the file that it names; what only an extension fills
- * has none. */
+mr_status
+mr_gltf_uri(mr_gltf *g, const char *uri, mr_gltf_buffer *b)
+{
+	const char *data = strstr(uri, ";base64,");
+
+	if (strncmp(uri, "data:", 5) != 0)
+		return read_file(g, uri, b);
+	if (!data)
+		return mr_fail(g->ctx, MR_EFORMAT, "a URI without base 64 is not read");
+	return decode64(g, data + strlen(";base64,"), b);
+}
+
+/* The bytes of a buffer: of the GLB, or by its URI; what only an extension fills has none. */
 static mr_status
 find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 {
 	json_t *json = mr_gltf_at(g, "buffers", number), *uri = json_object_get(json, "uri"),
 	       *extensions = json_object_get(json, "extensions");
-	const char *text = json_string_value(uri), *data = text ? strstr(text, ";base64,") : NULL;
 
-	if (text && strncmp(text, "data:", 5) != 0)
-		return read_file(g, number, text, b);
-	if (uri && !data)
-		return mr_fail(
-		    g->ctx, MR_EFORMAT, "buffer %zu is in a URI without base 64, which is not read", number);
-	if (text)
-		return decode64(g, number, data + strlen(";base64,"), b);
+	if (json_is_string(uri))
+		return mr_prefix(g->ctx, mr_gltf_uri(g, json_string_value(uri), b), "buffer %zu", number);
 	if (json_object_size(extensions))
 		return needs(g, json_object_iter_key(json_object_iter(extensions)));
 	if (number > 0 || !g->bin)

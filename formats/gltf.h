@@ -68,8 +68,35 @@ mr_status mr_gltf_numbers(const mr_gltf *g, const json_t *object, const char *ke
 /* The name of a thing; NULL where it has none, or an empty one. */
 const char *mr_gltf_name(const json_t *thing);
 
+/* The bytes in a URI, or in the file beside the document that it names. */
+mr_status mr_gltf_uri(mr_gltf *g, const char *uri, mr_gltf_buffer *b) MR_WARN_UNUSED;
+
 /* The bytes of the buffer view that an object names. */
 mr_status mr_gltf_view_of(mr_gltf *g, const json_t *object, mr_gltf_buffer *b) MR_WARN_UNUSED;
+
+/* How the pictures of a material lie on its primitives: by which texture coordinates, TEXCOORD_0 and on, and
+ * what these become first (KHR_texture_transform). */
+typedef struct mr_gltf_placing {
+	size_t set;
+	double offset[2], turn, scale[2]; /* turn: radians */
+} mr_gltf_placing;
+
+/* What the materials of the document look like, and their pictures. */
+typedef struct mr_gltf_looks {
+	struct mr_material *look; /* of each material */
+	mr_gltf_placing *placing;
+	bool said;     /* of one more is said than a name */
+	mr_file *file; /* PNG and JPEG, as many as the document has images, and one behind them */
+	size_t files;
+	bool *seen;         /* of each image */
+	size_t left, plain; /* images, and looks of materials, that are left out */
+} mr_gltf_looks;
+
+/* A picture that cannot be read is reported. */
+mr_status mr_gltf_looks_read(mr_gltf *g, mr_gltf_looks *l) MR_WARN_UNUSED;
+
+/* Gives the model the files that say it of materials of these names. */
+void mr_gltf_looks_put(mr_gltf_looks *l, const char *const *name, size_t count, mr_builder *b);
 
 /* The numbers of a row of an accessor by its type; 0 for one that is not read. */
 size_t mr_gltf_components(const json_t *accessor);

@@ -185,14 +185,17 @@ enum { POSITION, NORMAL, TEXCOORD, COLOR, ATTRIBUTES };
 typedef struct part {
 	const instance *of;
 	size_t accessor[ATTRIBUTES], indices, material;
+	mr_gltf_placing placing; /* of pictures */
 	size_t mode, corners;
 	size_t first, count; /* its vertices */
 	bool own;            /* that no part before it has read */
+	size_t placed;       /* the part that they have texture coordinates of; MR_UNKNOWN: none */
 } part;
 
 typedef struct reader {
 	mr_gltf g;
 	mr_builder b;
+	mr_gltf_looks looks;
 	instances scene;
 	part *part;
 	size_t parts, part_room;
@@ -231,12 +234,16 @@ apply_to_normal(const mr_affine *a, mr_v3 n)
 	return determinant(a) < 0 ? mr_mul(-1, turned) : turned;
 }
 
-/* v runs down the picture in glTF, up in OBJ. */
+/* offset + R(-turn) S(scale) uv: v runs down the picture in glTF, up in OBJ. */
 static void
-turn_texcoords(reader *r, size_t n, double *uv)
+place_texcoords(reader *r, const mr_gltf_placing *p, size_t n, double *uv)
 {
+	double c = cos(p->turn), s = sin(p->turn);
+
 	for (size_t i = 0; i < n; i++) {
-		uv[2 * i + 1] = 1 - uv[2 * i + 1];
+		double u = p->scale[0] * uv[2 * i], v = p->scale[1] * uv[2 * i + 1];
+		uv[2 * i] = p->offset[0] + c * u + s * v;
+		uv[2 * i + 1] = 1 - (p->offset[1] + c * v - s * u);
 		if (isfinite(uv[2 * i]) && isfinite(uv[2 * i + 1]))
 			continue;
 		uv[2 * i] = (double)NAN;
@@ -252,7 +259,7 @@ change(reader *r, const part *p, size_t k, double *x)
 	mr_v3 *v = (mr_v3 *)(void *)x;
 
 	if (k == TEXCOORD)
-		turn_texcoords(r, p->count, x);
+		place_texcoords(r, &p->placing, p->count, x);
 	if (k >= TEXCOORD || mr_is_identity(map))
 		return;
 	for (size_t i = 0; i < p->count; i++)
@@ -267,7 +274,7 @@ static const struct {
 	size_t width, least; /* least: the numbers that an accessor must have of it */
 	double none;         /* of vertices without */
 } attributes[ATTRIBUTES] = { { "POSITION", 3, 3, 0 }, { "NORMAL", 3, 3, 0 },
-	{ "TEXCOORD_0", 2, 2, (double)NAN }, { "COLOR_0", 4, 3, 1 } };
+	{ "TEXCOORD", 2, 2, (double)NAN }, { "COLOR_0", 4, 3, 1 } };
 
 /* ---- the primitives of the scene ---- */
 
@@ -282,12 +289,16 @@ find_accessors(reader *r, const json_t *json, part *p)
 {
 	const json_t *list = json_object_get(json, "attributes");
 
+	MR_TRY(mr_gltf_index(&r->g, json, "material", "materials", &p->material));
+	p->placing = p->material != MR_UNKNOWN ? r->looks.placing[p->material]
+	                                       : (mr_gltf_placing){ .scale = { 1, 1 } };
 	r->attributes += json_object_size(list);
 	for (size_t k = 0; k < ATTRIBUTES; k++) {
-		MR_TRY(mr_gltf_index(&r->g, list, attributes[k].name, "accessors", &p->accessor[k]));
+		const char *name = k == TEXCOORD ? mr_format(r->g.ctx, "TEXCOORD_%zu", p->placing.set)
+		                                 : attributes[k].name;
+		MR_TRY(mr_gltf_index(&r->g, list, name, "accessors", &p->accessor[k]));
 		r->attributes -= p->accessor[k] != MR_UNKNOWN;
 	}
-	MR_TRY(mr_gltf_index(&r->g, json, "material", "materials", &p->material));
 	return mr_gltf_index(&r->g, json, "indices", "accessors", &p->indices);
 }
 
@@ -313,11 +324,22 @@ count_rows(reader *r, size_t accessor, size_t width, size_t *rows)
 	return MR_OK;
 }
 
-/* Primitives of one place in space share vertices, as those of a mesh with several materials. */
 static bool
-shares_vertices(const part *p, const part *before)
+has_texcoords_of(const part *p, const part *q)
 {
+	return p->accessor[TEXCOORD] == q->accessor[TEXCOORD] &&
+	       !memcmp(&p->placing, &q->placing, sizeof p->placing);
+}
+
+/* Primitives of one place in space share vertices, as those of a mesh with several materials, if these have
+ * the same texture coordinates. */
+static bool
+shares_vertices(const reader *r, const part *p, const part *before)
+{
+	bool textured = before && before->placed != MR_UNKNOWN && p->accessor[TEXCOORD] != MR_UNKNOWN;
+
 	return before && p->accessor[POSITION] == before->accessor[POSITION] &&
+	       (!textured || has_texcoords_of(p, &r->part[before->placed])) &&
 	       !memcmp(&p->of->map, &before->of->map, sizeof p->of->map) &&
 	       (p->mode == POINTS) == (before->mode == POINTS);
 }
@@ -335,7 +357,8 @@ count_part(reader *r, part *p)
 		p->corners = p->count;
 	if (p->mode == TRIANGLES && p->corners % 3)
 		return mr_fail(r->g.ctx, MR_EFORMAT, "triangles of %zu corners", p->corners);
-	p->own = !shares_vertices(p, before);
+	p->own = !shares_vertices(r, p, before);
+	p->placed = p->accessor[TEXCOORD] != MR_UNKNOWN ? r->parts : p->own ? MR_UNKNOWN : before->placed;
 	p->first = p->own ? r->n : before->first;
 	r->n += p->own ? p->count : 0;
 	r->nf += faces_of(p->mode, p->corners);
@@ -530,20 +553,40 @@ add_face(reader *r, const part *p, size_t k, bool turned)
 	    r->b.vn && p->accessor[NORMAL] != MR_UNKNOWN ? at : NULL, 3);
 }
 
-/* Names of n things, in their order; of several without a name each is called `what` and its number. */
+/* Names of n things, in their order; of several without a name each is called `what` and its number, and so
+ * is a single one where `all`. */
 static void
-name_marks(reader *r, mr_marking kind, const char *const *name, size_t n, const char *what)
+name_marks(reader *r, mr_marking kind, const char **name, size_t n, const char *what, bool all)
 {
 	size_t unnamed = 0;
 
 	for (size_t i = 0; i < n; i++)
 		unnamed += !name[i];
 	for (size_t i = 0; i < n; i++) {
-		const char *own = name[i]        ? name[i]
-		                  : unnamed == 1 ? ""
-		                                 : mr_format(r->g.ctx, "%s%zu", what, i);
-		mr_build_mark(&r->b, kind, own, strlen(own), true);
+		if (!name[i])
+			name[i] = unnamed == 1 && !all ? "" : mr_format(r->g.ctx, "%s%zu", what, i);
+		mr_build_mark(&r->b, kind, name[i], strlen(name[i]), true);
 	}
+}
+
+/* Materials that look different have names that differ. */
+static void
+name_materials(reader *r, const char **name, size_t n)
+{
+	mr_name_table known = { 0 };
+
+	for (size_t i = 0; i < n; i++) {
+		const char *own = mr_gltf_name(mr_gltf_at(&r->g, "materials", i));
+		name[i] = own && r->looks.said ? mr_clean_copy(r->g.ctx, own, strlen(own)) : own;
+		for (size_t all = known.count;
+		     name[i] && r->looks.said &&
+		     mr_name_number(r->g.ctx, &known, name[i], strlen(name[i])) < all;)
+			name[i] = mr_format(r->g.ctx, "%s.%zu", name[i], i);
+	}
+	if (n > 1 || (n == 1 && (*name || r->looks.said)))
+		name_marks(r, MR_MATERIAL, name, n, "material", r->looks.said);
+	if (r->looks.said)
+		mr_gltf_looks_put(&r->looks, name, n, &r->b);
 }
 
 /* Faces have objects where these have names or are several, and materials where there are any. */
@@ -556,11 +599,8 @@ name_all(reader *r)
 	for (size_t i = 0; i < objects; i++)
 		name[i] = r->scene.instance[i].name;
 	if (objects > 1 || (objects == 1 && *name))
-		name_marks(r, MR_OBJECT, name, objects, "mesh");
-	for (size_t i = 0; i < materials; i++)
-		name[i] = mr_gltf_name(mr_gltf_at(&r->g, "materials", i));
-	if (materials > 1 || (materials == 1 && *name))
-		name_marks(r, MR_MATERIAL, name, materials, "material");
+		name_marks(r, MR_OBJECT, name, objects, "mesh", false);
+	name_materials(r, name, materials);
 }
 
 static mr_status
@@ -587,30 +627,15 @@ read_faces(reader *r, const part *p)
 
 /* ---- what is left out ---- */
 
-/* Whether a material has a colour, a light or is seen through. */
-static bool
-has_look(const json_t *material)
-{
-	const json_t *surface = json_object_get(material, "pbrMetallicRoughness"),
-		     *color = json_object_get(surface, "baseColorFactor");
-
-	for (size_t i = 0; i < json_array_size(color); i++)
-		if (json_number_value(json_array_get(color, i)) != 1)
-			return true;
-	return json_object_get(material, "emissiveFactor") || json_object_get(material, "alphaMode");
-}
-
 static void
 say_left(const reader *r)
 {
-	static const char *const arrays[] = { "images", "skins", "animations", "cameras" };
-	size_t looks = 0;
+	static const char *const arrays[] = { "skins", "animations", "cameras" };
 
+	mr_lost(r->g.ctx, NULL, r->nf ? r->looks.left : mr_gltf_size(&r->g, "images"), "images");
 	for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
 		mr_lost(r->g.ctx, NULL, mr_gltf_size(&r->g, arrays[i]), arrays[i]);
-	for (size_t i = 0; i < mr_gltf_size(&r->g, "materials"); i++)
-		looks += has_look(mr_gltf_at(&r->g, "materials", i));
-	mr_lost(r->g.ctx, NULL, looks, "looks of materials");
+	mr_lost(r->g.ctx, NULL, r->looks.plain, "looks of materials");
 	mr_lost(r->g.ctx, NULL, r->targets, "morph targets");
 	mr_lost(r->g.ctx, NULL, r->lines, "lines");
 	mr_lost(r->g.ctx, NULL, r->scene.unseen, "meshes that the scene does not show");
@@ -626,6 +651,7 @@ mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	reader r = { .b.ctx = ctx };
 
 	MR_TRY(mr_gltf_open(ctx, m->path, data, size, &r.g));
+	MR_TRY(mr_gltf_looks_read(&r.g, &r.looks));
 	MR_TRY(find_scene(&r.g, &r.scene));
 	MR_TRY(find_parts(&r));
 	MR_TRY(read_vertices(&r));

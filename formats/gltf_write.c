@@ -140,38 +140,19 @@ image_type(const mr_file_bytes *b)
 	return mr_is_jpeg(b->data, b->size) ? "image/jpeg" : NULL;
 }
 
-/* Bytes of a file's name without its suffix, .gz or not. */
-static size_t
-stem_bytes(const char *name)
-{
-	size_t n = strlen(name) - (mr_suffix_gz(name) ? 3 : 0), at = n;
-
-	while (at > 1 && name[at - 1] != '.')
-		at--;
-	return at > 1 ? at - 1 : n;
-}
-
 /* A file beside the document, called as that is up to `end`, and the URI of it. */
 static mr_status
 put_file(glb *w, const char *end, const void *data, size_t bytes, json_t **uri)
 {
-	const char *path = w->s->path, *name = mr_file_name(path);
-	int stem = (int)stem_bytes(name);
 	mr_text text = { .ctx = w->ctx };
-	mr_sink s;
+	const char *name;
 
-	MR_TRY(mr_sink_open(
-	    w->ctx, mr_format(w->ctx, "%.*s%s", (int)(name - path) + stem, path, end), false, &s));
-	mr_put(&s, data, bytes);
-	MR_TRY(mr_sink_close(&s, MR_OK));
-	for (int i = 0; i < stem; i++) {
-		bool plain = isalnum((unsigned char)name[i]) || strchr("-._~", name[i]);
-		if (plain)
-			mr_text_bytes(&text, name + i, 1);
+	MR_TRY(mr_put_beside(w->ctx, w->s->path, end, data, bytes, &name));
+	for (; *name; name++)
+		if (isalnum((unsigned char)*name) || strchr("-._~", *name))
+			mr_text_bytes(&text, name, 1);
 		else
-			mr_text_add(&text, "%%%02X", (unsigned)(unsigned char)name[i]);
-	}
-	mr_text_add(&text, "%s", end);
+			mr_text_add(&text, "%%%02X", (unsigned)(unsigned char)*name);
 	*uri = mr_glb_made(w, true, json_string(text.s));
 	return MR_OK;
 }
@@ -203,26 +184,26 @@ put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 
 /* The texture of a picture; MR_UNKNOWN where there is none, or of a kind that glTF does not have. */
 static mr_status
-embed(glb *w, const char *file, size_t *texture)
+embed(glb *w, const mr_file *file, size_t *texture)
 {
 	size_t known = json_array_size(json_object_get(w->root, "textures"));
 	mr_file_bytes b = { 0 };
 	mr_status status = MR_OK;
 
 	*texture = MR_UNKNOWN;
-	for (size_t i = 0; file && i < known; i++)
-		if (!strcmp(w->image[i], file))
+	for (size_t i = 0; file->name && i < known; i++)
+		if (!strcmp(w->image[i], file->name))
 			*texture = i;
-	if (!file || *texture != MR_UNKNOWN)
+	if (!file->name || *texture != MR_UNKNOWN)
 		return MR_OK;
 	MR_RESERVE(w->ctx, w->image, known, 1, &w->image_room);
-	w->image[known] = file;
-	MR_TRY(mr_file_bytes_read(w->ctx, file, &b));
+	w->image[known] = file->name;
+	MR_TRY(mr_file_read(w->ctx, file, &b));
 	if (image_type(&b))
-		status = put_image(w, file, &b, texture);
+		status = put_image(w, file->name, &b, texture);
 	else
-		mr_tell(w->ctx, MR_LOST, 1, "picture %s, which is neither PNG nor JPEG", file);
-	return mr_prefix(w->ctx, mr_file_bytes_end(&b, status), "%s", file);
+		mr_tell(w->ctx, MR_LOST, 1, "picture %s, which is neither PNG nor JPEG", file->name);
+	return mr_prefix(w->ctx, mr_file_bytes_end(&b, status), "%s", file->name);
 }
 
 /* A reference to a texture, for "o*". */
@@ -267,8 +248,8 @@ put_materials(glb *w, layer *l)
 		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture, normals;
 		if (bytes == 0) /* no face has it */
 			continue;
-		MR_TRY(embed(w, look[i].file, &texture));
-		MR_TRY(embed(w, look[i].normals, &normals));
+		MR_TRY(embed(w, &look[i].file, &texture));
+		MR_TRY(embed(w, &look[i].normals, &normals));
 		l->materials[i] = mr_glb_push(
 		    w, "materials", new_material(w, &look[i], name[i], bytes, texture, normals));
 	}

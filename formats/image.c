@@ -1,8 +1,6 @@
 /* Pictures by their bytes. */
 #include "formats/image.h"
 
-#include "formats/bytes.h"
-
 bool
 mr_is_png(const unsigned char *data, size_t size)
 {
@@ -35,10 +33,11 @@ mr_image_decode(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *i
 }
 
 mr_status
-mr_image_read(mr_ctx *ctx, const char *path, mr_image *image)
+mr_image_read(mr_ctx *ctx, const mr_file *file, mr_image *image)
 {
 	mr_file_bytes b = { 0 };
 
-	MR_TRY(mr_file_bytes_read(ctx, path, &b));
-	return mr_prefix(ctx, mr_file_bytes_end(&b, mr_image_decode(ctx, b.data, b.size, image)), "%s", path);
+	MR_TRY(mr_file_read(ctx, file, &b));
+	return mr_prefix(
+	    ctx, mr_file_bytes_end(&b, mr_image_decode(ctx, b.data, b.size, image)), "%s", file->name);
 }

@@ -2,6 +2,7 @@
 #ifndef MR_FORMATS_IMAGE_H
 #define MR_FORMATS_IMAGE_H
 
+#include "formats/bytes.h"
 #include "render/canvas.h"
 
 /* Whether the bytes begin a PNG, or a JPEG. */
@@ -15,7 +16,7 @@ enum { MR_PNG_MOST = 8 * 1032, MR_PNG_GRAY_MOST = 1032 / 2, MR_JPEG_MOST = 8 * 6
 /* Reads a PNG, what is transparent over white, or a JPEG, into the arena.  MR_EFORMAT for another kind. */
 mr_status
 mr_image_decode(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image) MR_WARN_UNUSED;
-mr_status mr_image_read(mr_ctx *ctx, const char *path, mr_image *image) MR_WARN_UNUSED;
+mr_status mr_image_read(mr_ctx *ctx, const mr_file *file, mr_image *image) MR_WARN_UNUSED;
 
 /* MR_EFORMAT where so many bytes, of which each stands for at most so many pixels, cannot hold the picture
  * that they announce. */

@@ -19,12 +19,6 @@ mr_status mr_map_put_range(mr_ctx *ctx, mr_frame *f, double low, double high) MR
 /* The name of a map: of a material, too, on a line of its own. */
 mr_status mr_map_check_name(mr_ctx *ctx, const char *name) MR_WARN_UNUSED;
 
-/* Refuses NAME.mtl where it is a file that no map wrote. */
-mr_status mr_map_check_place(mr_ctx *ctx, const char *name) MR_WARN_UNUSED;
-
-/* Writes NAME.mtl, with these statements. */
-mr_status mr_map_write_material(mr_ctx *ctx, const char *name, const char *statements) MR_WARN_UNUSED;
-
 /* Gives nf faces of the layer the material of the map, and, where they are not NULL, texture coordinates;
  * reports what they replace. */
 mr_status mr_map_put_material(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const double *uv,

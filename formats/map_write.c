@@ -7,10 +7,9 @@
 #include "formats/bytes.h"
 #include "formats/filename.h"
 #include "formats/map.h"
+#include "formats/materials.h"
 #include "formats/scan.h"
 #include "render/bake.h"
-
-#include <sys/stat.h>
 
 enum { GRAIN = 16 };
 
@@ -160,38 +159,6 @@ write_normals(mr_ctx *ctx, const mapping *m, const char *path, size_t *turned)
 
 /* ---- what names the pictures ---- */
 
-static const char MARK[] = "# a map of mr-map\n";
-
-mr_status
-mr_map_write_material(mr_ctx *ctx, const char *name, const char *statements)
-{
-	mr_sink sink;
-
-	MR_TRY(mr_sink_open(ctx, mr_format(ctx, "%s.mtl", name), false, &sink));
-	mr_print(&sink, "%snewmtl %s\n%s", MARK, mr_file_name(name), statements);
-	return mr_sink_close(&sink, MR_OK);
-}
-
-mr_status
-mr_map_check_place(mr_ctx *ctx, const char *name)
-{
-	const char *path = mr_format(ctx, "%s.mtl", name);
-	char first[sizeof MARK];
-	struct stat st;
-	bool own = true;
-	FILE *file;
-
-	file = stat(path, &st) == 0 && S_ISREG(st.st_mode) ? fopen(path, "rb") : NULL;
-	if (file) {
-		size_t got = fread(first, 1, sizeof MARK - 1, file);
-		own = got == 0 || (got == sizeof MARK - 1 && !memcmp(first, MARK, got));
-		fclose(file);
-	}
-	return own ? MR_OK
-	           : mr_fail(ctx, MR_EUSAGE, "%s.mtl is of no map, and would be lost: give another name",
-			 mr_file_name(name));
-}
-
 double *
 mr_map_texcoords(mr_ctx *ctx, const mr_atlas *a)
 {
@@ -270,15 +237,15 @@ write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 	const char *heights = mr_format(ctx, "%s-height.png", name);
 	const char *normals = mr_format(ctx, "%s-normal.png", name), *file = mr_file_name(name);
 
-	MR_TRY(mr_map_check_place(ctx, name));
+	MR_TRY(mr_library_check(ctx, name, NULL));
 	MR_TRY(write_heights(ctx, m, heights));
 	found->clipped = count_rows(m);
 	MR_TRY(write_normals(ctx, m, normals, &found->turned));
 	/* disp and its option -mm (Wavefront, "Advanced Visualizer", appendix B2): a texel's value is times
 	 * the gain and plus the base.  norm is what programs of today add. */
-	MR_TRY(mr_map_write_material(ctx, name,
-	    mr_format(ctx, "Kd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm %s %s-height.png\n", file,
-		numbers(ctx, m->low, m->high - m->low), file)));
+	MR_TRY(mr_library_write(ctx, name,
+	    mr_format(ctx, "newmtl %s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm %s %s-height.png\n", file,
+		file, numbers(ctx, m->low, m->high - m->low), file)));
 	mr_tell(ctx, MR_ROUNDED, found->clipped, "heights of texels");
 	return MR_OK;
 }

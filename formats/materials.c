@@ -3,6 +3,7 @@
 #include "formats/materials.h"
 
 #include "base/name_table.h"
+#include "formats/filename.h"
 #include "formats/format.h"
 #include "mesh/name_lists.h"
 
@@ -10,7 +11,8 @@
 
 typedef struct finder {
 	mr_ctx *ctx;
-	const char *folder;
+	const mr_model *model;
+	const char *folder;  /* or NULL */
 	mr_name_table names; /* of the model's materials */
 	mr_material *list,
 	    *current;        /* current: that the statements at hand speak of; NULL: none of the model's */
@@ -58,21 +60,39 @@ mr_file_beside(mr_ctx *ctx, const char *model, const char *name, size_t bytes)
 	    ctx, slash ? mr_format(ctx, "%.*s", (int)(slash - model), model) : ".", name, bytes);
 }
 
+mr_file
+mr_file_attached(const mr_model *m, const char *name, size_t bytes)
+{
+	for (size_t i = 0; i < m->files; i++)
+		if (strlen(m->file[i].name) == bytes && !memcmp(m->file[i].name, name, bytes))
+			return m->file[i];
+	return (mr_file){ 0 };
+}
+
+static mr_file
+find_file(const finder *f, const char *name, size_t bytes)
+{
+	mr_file file = { .name = f->folder ? mr_file_in(f->ctx, f->folder, name, bytes) : NULL };
+
+	return file.name ? file : mr_file_attached(f->model, name, bytes);
+}
+
 /* ---- statements ---- */
 
 /* Behind options only the last word is the picture's name. */
-static const char *
+static mr_file
 picture(finder *f, mr_scan *t)
 {
-	const char *found;
+	const char *last;
+	mr_file found;
 	size_t n;
 
 	mr_skip_blanks(t);
 	if (t->p < t->end && *t->p == '-')
-		for (mr_scan ahead = *t; mr_scan_word(&ahead, &found, &n);)
-			t->p = found;
-	found = mr_file_in(f->ctx, f->folder, t->p, (size_t)(t->end - t->p));
-	mr_tell(f->ctx, MR_MISSING, !found, "%.*s", (int)(t->end - t->p), t->p);
+		for (mr_scan ahead = *t; mr_scan_word(&ahead, &last, &n);)
+			t->p = last;
+	found = find_file(f, t->p, (size_t)(t->end - t->p));
+	mr_tell(f->ctx, MR_MISSING, !found.name, "%.*s", (int)(t->end - t->p), t->p);
 	return found;
 }
 
@@ -171,13 +191,14 @@ statements(finder *f, size_t count, const unsigned char *data, size_t size)
 }
 
 static mr_status
-read_library(finder *f, size_t count, const char *path)
+read_library(finder *f, size_t count, const mr_file *file)
 {
 	mr_file_bytes b = { 0 };
 
 	f->files++;
-	MR_TRY(mr_file_bytes_read(f->ctx, path, &b));
-	return mr_prefix(f->ctx, mr_file_bytes_end(&b, statements(f, count, b.data, b.size)), "%s", path);
+	MR_TRY(mr_file_read(f->ctx, file, &b));
+	return mr_prefix(
+	    f->ctx, mr_file_bytes_end(&b, statements(f, count, b.data, b.size)), "%s", file->name);
 }
 
 /* A line names one file, whose name may have blanks in it. */
@@ -187,10 +208,11 @@ read_libraries(finder *f, size_t count, mr_lines files)
 	mr_scan text = mr_scan_of(f->ctx, (const unsigned char *)files.text, files.bytes), line;
 
 	while (mr_scan_line(&text, &line)) {
-		const char *path = mr_file_in(f->ctx, f->folder, line.p, (size_t)(line.end - line.p));
-		if (path)
-			MR_TRY(read_library(f, count, path));
-		mr_tell(f->ctx, MR_MISSING, !path, "%.*s", (int)(line.end - line.p), line.p);
+		mr_file file = find_file(f, line.p, (size_t)(line.end - line.p));
+		if (file.name)
+			MR_TRY(read_library(f, count, &file));
+		mr_tell(
+		    f->ctx, MR_MISSING, f->folder && !file.name, "%.*s", (int)(line.end - line.p), line.p);
 	}
 	return MR_OK;
 }
@@ -215,7 +237,7 @@ say_unknown(const finder *f, const char *const *name, size_t count)
 mr_status
 mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count)
 {
-	finder f = { .ctx = ctx, .folder = folder };
+	finder f = { .ctx = ctx, .model = m, .folder = folder };
 	const char **name;
 
 	*list = NULL;
@@ -234,6 +256,81 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	say_unknown(&f, name, *count);
 	*list = f.list;
 	return MR_OK;
+}
+
+static void
+put_numbers(mr_text *t, const char *word, const double *x, int n)
+{
+	mr_text_add(t, "%s", word);
+	for (int i = 0; i < n; i++)
+		mr_text_add(t, " %.9g", x[i]);
+	mr_text_add(t, "\n");
+}
+
+void
+mr_material_put(mr_text *t, const char *name, const mr_material *m)
+{
+	mr_text_add(t, "newmtl %s\n", name);
+	if (m->colored)
+		put_numbers(t, "Kd", m->color, 3);
+	if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0)
+		put_numbers(t, "Ke", m->emission, 3);
+	if (m->opacity < 1)
+		put_numbers(t, "d", &m->opacity, 1);
+	if (m->roughness != mr_material_plain.roughness)
+		put_numbers(t, "Pr", &m->roughness, 1);
+	if (m->metal > 0)
+		put_numbers(t, "Pm", &m->metal, 1);
+	if (m->file.name)
+		mr_text_add(t, "map_Kd %s\n", m->file.name);
+	if (m->normals.name)
+		mr_text_add(t, "norm %s\n", m->normals.name);
+}
+
+/* ---- written ---- */
+
+static const char MARK[] = "# by mr\n";
+
+bool
+mr_may_replace(const char *path, const void *data, size_t size)
+{
+	const unsigned char *p = data, *end = p + size;
+	FILE *file = is_file(path) ? fopen(path, "rb") : NULL;
+	int c = file ? getc(file) : EOF;
+	bool may = c == EOF;
+
+	while (c != EOF && p < end && c == *p) {
+		c = getc(file);
+		p++;
+	}
+	if (file)
+		fclose(file);
+	return may || p == end;
+}
+
+mr_status
+mr_library_check(mr_ctx *ctx, const char *name, bool *own)
+{
+	const char *path = mr_format(ctx, "%s.mtl", name);
+	bool may = mr_may_replace(path, MARK, sizeof MARK - 1);
+
+	if (own)
+		*own = may && is_file(path);
+	return may ? MR_OK
+	           : mr_fail(ctx, MR_EUSAGE,
+			 "%s.mtl was not written by mr, and would be lost: give another name",
+			 mr_file_name(name));
+}
+
+mr_status
+mr_library_write(mr_ctx *ctx, const char *name, const char *statements)
+{
+	mr_sink sink;
+
+	MR_TRY(mr_sink_open(ctx, mr_format(ctx, "%s.mtl", name), false, &sink));
+	mr_put(&sink, MARK, sizeof MARK - 1);
+	mr_put(&sink, statements, strlen(statements));
+	return mr_sink_close(&sink, MR_OK);
 }
 
 void

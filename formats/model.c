@@ -42,6 +42,8 @@ static const struct {
 	{ "mtllib", "mtllib", offsetof(mr_model, mtllib) },
 };
 
+static const mr_shape BYTES = { '-', 'b', 1 };
+
 enum { COLUMNS = sizeof columns / sizeof *columns, NAMES = sizeof names / sizeof *names };
 
 static const void *
@@ -126,6 +128,7 @@ drop_faces(mr_model *m)
 		*lines_of(m, i) = (mr_lines){ 0 };
 	while (kept < m->properties && m->property[kept].shape.element == 'v')
 		kept++;
+	m->files = 0;
 	m->properties = kept; /* those of vertices come first */
 }
 
@@ -190,7 +193,28 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 		if (lines_of(&all, i)->text)
 			MR_TRY(mr_layer_put(
 			    ctx, f, layer, names[i].name, lines_of(&all, i)->text, lines_of(&all, i)->bytes));
+	for (size_t i = 0; i < m->files; i++)
+		MR_TRY(mr_frame_put(ctx, f, "", m->file[i].name, BYTES, m->file[i].data, m->file[i].size));
 	return put_properties(ctx, f, layer, m);
+}
+
+/* The files that came with the models of the frame. */
+static mr_status
+get_files(mr_ctx *ctx, mr_frame *f, mr_model *m)
+{
+	mr_file *file = MR_NEW(ctx, f->count, mr_file);
+	const void *data;
+
+	for (size_t i = 0; i < f->count; i++) {
+		const mr_column *c = &f->columns[i];
+		if (!mr_column_is_file(c))
+			continue;
+		file[m->files].name = c->name;
+		MR_TRY(mr_frame_get(ctx, f, "", c->name, BYTES, &data, &file[m->files].size));
+		file[m->files++].data = data;
+	}
+	m->file = file;
+	return MR_OK;
 }
 
 /* What a column is called in files: as it was before put_properties gave it a similar name. */
@@ -264,6 +288,7 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 		l->text = data;
 	}
 	MR_TRY(get_properties(ctx, f, layer, &got));
+	MR_TRY(get_files(ctx, f, &got));
 	*m = got;
 	return MR_OK;
 }
@@ -349,7 +374,8 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	MR_TRY(mr_prefix(ctx, keep_placed(ctx, f, layer, &m), "%s", path));
 	MR_TRY(mr_prefix(ctx, mr_layer_mend(ctx, f, layer, o, unit), "%s", path));
 	*frame = f;
-	mr_libraries_missing(ctx, path, m.mtllib);
+	if (m.files == 0)
+		mr_libraries_missing(ctx, path, m.mtllib);
 	m.counts.vertices = mr_frame_find(f, layer, "position")->rows;
 	m.counts.triangles = m.nf ? mr_frame_find(f, layer, "triangles")->rows : 0;
 	if (result)

@@ -1,5 +1,7 @@
 /* OBJ: polygons, corners with what the model has, and what the faces are marked with wherever it changes. */
+#include "formats/filename.h"
 #include "formats/format.h"
+#include "formats/image.h"
 #include "formats/materials.h"
 #include "mesh/name_lists.h"
 
@@ -172,16 +174,90 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 	mr_put_each(s, w.polygon.count, put_face, &w);
 }
 
-static void
-put_libraries(mr_sink *s, mr_lines files)
+/* ---- files of materials ---- */
+
+/* What goes beside the OBJ. */
+typedef struct files {
+	mr_ctx *ctx;
+	const char *path, *stem;
+	bool own;          /* STEM.mtl is there, by an earlier mr-export: so are the pictures */
+	const char **name; /* in the stream, of the pictures so far */
+	size_t count, room;
+} files;
+
+/* Writes a picture of the stream once; its name becomes the one there. */
+static mr_status
+put_picture(files *w, mr_file *file)
 {
-	mr_scan text = mr_scan_of(s->ctx, (const unsigned char *)files.text, files.bytes), line;
+	size_t i = 0;
+	const char *end;
+
+	if (!file->name)
+		return MR_OK;
+	while (i < w->count && strcmp(w->name[i], file->name) != 0)
+		i++;
+	end = mr_format(w->ctx, "-%zu.%s", i + 1, mr_is_png(file->data, file->size) ? "png" : "jpg");
+	if (i == w->count) {
+		if (!w->own &&
+		    !mr_may_replace(mr_format(w->ctx, "%s%s", w->stem, end), file->data, file->size))
+			return mr_fail(w->ctx, MR_EUSAGE, "%s%s would be lost: give another name",
+			    mr_file_name(w->stem), end);
+		MR_RESERVE(w->ctx, w->name, w->count, 1, &w->room);
+		w->name[w->count++] = file->name;
+		return mr_put_beside(w->ctx, w->path, end, file->data, file->size, &file->name);
+	}
+	file->name = mr_format(w->ctx, "%s%s", mr_file_name(w->stem), end);
+	return MR_OK;
+}
+
+/* The materials that the stream has files of, and their pictures. */
+static mr_status
+put_files(mr_sink *s, const mr_model *m)
+{
+	files w = { .ctx = s->ctx, .path = s->path, .stem = mr_path_stem(s->ctx, s->path) };
+	mr_text text = { .ctx = s->ctx };
+	mr_material *look;
+	const char **name;
+	size_t count, names;
+
+	mr_text_add(&text, "%s", ""); /* not NULL */
+	MR_TRY(mr_library_check(s->ctx, w.stem, &w.own));
+	MR_TRY(mr_materials_find(s->ctx, m, NULL, &look, &count));
+	mr_line_starts(s->ctx, m->materials.text, m->materials.bytes, &name, &names);
+	for (size_t i = 0; i < count; i++) {
+		int bytes = (int)(name[i + 1] - name[i]) - 1;
+		MR_TRY(put_picture(&w, &look[i].file));
+		MR_TRY(put_picture(&w, &look[i].normals));
+		mr_material_put(&text, mr_format(s->ctx, "%.*s", bytes, name[i]), &look[i]);
+	}
+	mr_print(s, "mtllib %s.mtl\n", mr_file_name(w.stem));
+	return mr_library_write(s->ctx, w.stem, text.s);
+}
+
+/* The files of materials that the model names, and those that are in the stream. */
+static mr_status
+put_libraries(mr_sink *s, const mr_model *m)
+{
+	mr_scan text = mr_scan_of(s->ctx, (const unsigned char *)m->mtllib.text, m->mtllib.bytes), line;
+	mr_text named = { .ctx = s->ctx };
+	size_t attached = 0;
 
 	while (mr_scan_line(&text, &line)) {
+		size_t bytes = (size_t)(line.end - line.p);
+		if (mr_file_attached(m, line.p, bytes).name) {
+			attached++;
+			continue;
+		}
 		mr_put(s, "mtllib ", 7);
-		mr_put(s, line.p, (size_t)(line.end - line.p));
+		mr_put(s, line.p, bytes);
 		mr_put(s, "\n", 1);
+		mr_text_add(&named, "%.*s\n", (int)bytes, line.p);
 	}
+	mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", (mr_lines){ named.s, named.n });
+	if (attached && s->file.target)
+		return put_files(s, m);
+	mr_lost(s->ctx, NULL, attached, "files of materials");
+	return MR_OK;
 }
 
 mr_status
@@ -192,11 +268,10 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 
 	mr_note_lost(s, m,
 	    "normal corner_normal color texcoord corner_texcoord group object material smoothing faces");
-	put_libraries(s, m->mtllib);
+	MR_TRY(put_libraries(s, m));
 	mr_put_each(s, m->nv, put_vertex, m);
 	put_values(s, m, &x[0]);
 	put_values(s, m, &x[1]);
-	mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib);
 	put_faces(s, m, x);
 	return MR_OK;
 }

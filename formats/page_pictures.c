@@ -94,17 +94,17 @@ keep_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, const mr_file_b
 
 /* The number of the picture of a file. */
 static mr_status
-find_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, size_t *number)
+find_picture(mr_ctx *ctx, mr_page_pictures *p, const mr_file *file, size_t *number)
 {
 	mr_file_bytes b = { 0 };
 
 	for (size_t i = 0; i < p->count; i++)
-		if (!strcmp(p->picture[i].path, path)) {
+		if (!strcmp(p->picture[i].path, file->name)) {
 			*number = i;
 			return MR_OK;
 		}
-	MR_TRY(mr_file_bytes_read(ctx, path, &b));
-	MR_TRY(mr_prefix(ctx, mr_file_bytes_end(&b, keep_picture(ctx, p, path, &b)), "%s", path));
+	MR_TRY(mr_file_read(ctx, file, &b));
+	MR_TRY(mr_prefix(ctx, mr_file_bytes_end(&b, keep_picture(ctx, p, file->name, &b)), "%s", file->name));
 	*number = p->count - 1;
 	return MR_OK;
 }
@@ -124,10 +124,10 @@ wear_material(
 	size_t number = 0;
 	bool pictured = false;
 
-	if (m->file && find_picture(ctx, p, m->file, &number) < 0)
-		mr_found(ctx, &(mr_finding){ .kind = MR_MISSING, .what = m->file });
+	if (m->file.name && find_picture(ctx, p, &m->file, &number) < 0)
+		mr_found(ctx, &(mr_finding){ .kind = MR_MISSING, .what = m->file.name });
 	else
-		pictured = m->file != NULL;
+		pictured = m->file.name != NULL;
 	if (!pictured && !m->colored)
 		return;
 	if (m->colored)
@@ -157,7 +157,7 @@ mr_page_can_wear(const mr_page_pictures *p, const mr_frame *f, const char *layer
 		return false;
 	if (p->texture)
 		return mr_layer_has(f, layer, "texcoord") || mr_layer_has(f, layer, "corner_texcoord");
-	return p->materials && mr_layer_has(f, layer, "material");
+	return (p->materials || mr_frame_has_files(f)) && mr_layer_has(f, layer, "material");
 }
 
 mr_status
@@ -176,7 +176,7 @@ mr_page_wear(mr_ctx *ctx, mr_page_pictures *p, mr_frame *f, const char *layer, m
 	*coordinates = m.corner_texcoord ? "corner_texcoord" : m.texcoord ? "texcoord" : NULL;
 	if (!p->texture)
 		return wear_materials(ctx, p, &m, layer, notes);
-	MR_TRY(find_picture(ctx, p, p->texture, &number));
+	MR_TRY(find_picture(ctx, p, &(mr_file){ .name = p->texture }, &number));
 	mr_text_add(notes, "texture %s %zu\n", layer, number);
 	p->worn = true;
 	return MR_OK;

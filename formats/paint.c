@@ -19,7 +19,7 @@ keep_corners(mr_ctx *keep, const mr_model *m, const double **corners)
 }
 
 static mr_status
-read_texture(mr_ctx *ctx, mr_ctx *keep, const char *file, mr_texture *texture)
+read_texture(mr_ctx *ctx, mr_ctx *keep, const mr_file *file, mr_texture *texture)
 {
 	mr_image image;
 
@@ -35,7 +35,7 @@ wear_one(mr_ctx *ctx, mr_ctx *keep, const char *file, size_t nf, mr_paint *paint
 	mr_texture *texture = MR_NEW(keep, 1, mr_texture);
 	uint32_t *of = MR_NEW_ZERO(keep, nf, uint32_t);
 
-	MR_TRY(read_texture(ctx, keep, file, texture));
+	MR_TRY(read_texture(ctx, keep, &(mr_file){ .name = file }, texture));
 	paint->texture = texture;
 	paint->of = of;
 	return MR_OK;
@@ -49,13 +49,14 @@ read_pictures(
 	uint32_t n = 0;
 
 	for (size_t i = 0; i < count; i++) {
+		const char *name = look[i].file.name;
 		number[i] = MR_NONE;
-		for (size_t k = 0; k < i && look[i].file && number[i] == MR_NONE; k++)
-			if (look[k].file && !strcmp(look[k].file, look[i].file))
+		for (size_t k = 0; k < i && name && number[i] == MR_NONE; k++)
+			if (look[k].file.name && !strcmp(look[k].file.name, name))
 				number[i] = number[k];
-		if (!look[i].file || number[i] != MR_NONE)
+		if (!name || number[i] != MR_NONE)
 			continue;
-		if (read_texture(ctx, keep, look[i].file, &texture[n]) < 0)
+		if (read_texture(ctx, keep, &look[i].file, &texture[n]) < 0)
 			mr_tell(ctx, MR_MISSING, 1, "%s, a picture", ctx->error);
 		else
 			number[i] = n++;
@@ -167,9 +168,10 @@ paint_frame(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_
 
 	for (size_t i = shown->first; i < shown->first + shown->count; i++)
 		MR_TRY(paint_panel(ctx, keep, g, frame, opts, &g->panel[i], &painted));
-	return painted ? MR_OK
-	               : mr_fail(ctx, MR_EMISSING, "no layer that is drawn has %s",
-			     opts->texture ? "texture coordinates" : "materials");
+	return painted || !(opts->texture || opts->materials)
+	           ? MR_OK
+	           : mr_fail(ctx, MR_EMISSING, "no layer that is drawn has %s",
+			 opts->texture ? "texture coordinates" : "materials");
 }
 
 mr_status
@@ -178,7 +180,7 @@ mr_gallery_add_painted(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame
 	mr_status status;
 
 	MR_TRY(mr_gallery_add(ctx, keep, g, frame, opts));
-	if (!opts->texture && !opts->materials)
+	if (!opts->texture && !opts->materials && !mr_frame_has_files(frame))
 		return MR_OK;
 	status = paint_frame(ctx, keep, g, frame, opts);
 	if (status < 0)

@@ -916,7 +916,7 @@ typedef struct mr_render_opts {
 	const char *layers;    /* comma between them; NULL: all with positions */
 	const char *color;     /* column that gives colours; NULL: none */
 	const char *texture;   /* picture, PNG or JPEG, on what has texture coordinates; NULL: none */
-	const char *materials; /* folder of files of materials, which are drawn; NULL: none */
+	const char *materials; /* folder of files of materials, which are drawn; NULL: those in the stream */
 	bool ranged;           /* numbers low to high span the colours; else least to greatest of the shot */
 	double low, high;
 	bool same;         /* a sheet is one shot; else each key frame begins one */
@@ -967,7 +967,7 @@ typedef struct mr_bake_opts {
 	const char *layer;     /* of the target; NULL: control with a displacement, else as mr-export has it */
 	size_t side, gutter;   /* of the pictures, in texels; the latter around each chart */
 	const char *texture;   /* the source's picture; NULL: its materials' */
-	const char *materials; /* folder of their files */
+	const char *materials; /* folder of their files, which may be in the stream */
 } mr_bake_opts;
 
 #define MR_BAKE_DEFAULTS MR_DEFAULTS(NULL, 2048, 4, NULL, ".")

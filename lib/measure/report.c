@@ -439,6 +439,15 @@ check(report *r)
 	return list_failure(r, mr_displacement_check(r->ctx, r->f));
 }
 
+static void
+report_files(const report *r)
+{
+	for (const mr_column *c = r->f->columns; c < r->f->columns + r->f->count; c++)
+		if (mr_column_is_file(c))
+			mr_text_add(r->t, "  file             %s, %llu bytes\n", c->name,
+			    (unsigned long long)c->rows);
+}
+
 static mr_status
 report_text(report *r)
 {
@@ -446,6 +455,7 @@ report_text(report *r)
 	    r->f->key ? "key" : "delta");
 	report_history(r);
 	MR_TRY(report_latest(r));
+	report_files(r);
 	MR_TRY(report_layers(r));
 	if (r->opts->check) {
 		MR_TRY(check(r));

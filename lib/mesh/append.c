@@ -290,6 +290,15 @@ seen_before(const joined *j, size_t i, size_t k)
 	return !mr_frame_begins_layer(j->frames[i], k);
 }
 
+static mr_status
+pass_files(mr_ctx *ctx, const mr_frame *from, mr_frame *to)
+{
+	for (const mr_column *c = from->columns; c < from->columns + from->count; c++)
+		if (mr_column_is_file(c) && !mr_frame_find(to, "", c->name))
+			MR_TRY(mr_frame_pass(ctx, to, c));
+	return MR_OK;
+}
+
 mr_status
 mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 {
@@ -304,6 +313,8 @@ mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 			if (!seen_before(&j, i, k))
 				MR_TRY(join_layer(ctx, &j, f));
 		}
+	for (size_t i = 0; i < n; i++)
+		MR_TRY(pass_files(ctx, frames[i], f));
 	j.layer = "";
 	for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
 		j.name = texts[i];

@@ -33,6 +33,24 @@ mr_same_shape(mr_shape a, mr_shape b)
 	return a.element == b.element && a.type == b.type && a.components == b.components;
 }
 
+/* Files that came with models are columns of bytes and of no layer, named by a checksum and the size: two of
+ * one name are the same. */
+static inline bool
+mr_column_is_file(const mr_column *c)
+{
+	return !*c->layer && mr_same_shape(c->shape, (mr_shape){ '-', 'b', 1 });
+}
+
+static inline bool
+mr_frame_has_files(const mr_frame *f)
+{
+	size_t i = 0;
+
+	while (i < f->count && !mr_column_is_file(&f->columns[i]))
+		i++;
+	return i < f->count;
+}
+
 /* Bytes of one value of a type: 8, 4 or 1. */
 size_t mr_type_size(char type);
 
@@ -72,7 +90,7 @@ mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
 mr_status mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column);
 
 /* Passes on all columns of another frame; its history follows the one that is there.  MR_ERANGE where a
- * layer, or a column of no layer, is in both. */
+ * layer, or a column of no layer but a file, is in both. */
 mr_status mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from);
 
 /* The text of a column of no layer, a line each; none where it is not there. */

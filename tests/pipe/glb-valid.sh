@@ -36,5 +36,12 @@ for model in $models; do
 	mr-export -q --quantize --compress -i $model.mrs $model-packed.glb
 	mr-export -q -i $model.mrs $model.gltf
 done
+python3 -c '
+from glbs import *
+root, data = square([png(8, 8, lambda x, y: (0, 32 * x, 32 * y))])
+write("pictures.glb", root, data)'
+mr-import pictures.glb -o again.mrs
+mr-export -i again.mrs again.glb
+mr-export -i again.mrs again.gltf
 mr-export -q --lods -i several.mrs levels.glb
 node valid.js ./*.glb ./*.gltf

@@ -288,7 +288,7 @@ refused(void **state)
 	refuses("\"POSITION\":0", "\"POSITION\":-1",
 	    "mesh 0, primitive 0: POSITION is no whole number of 0 to 18446744073709551614");
 	refuses("\"byteLength\":126", "\"byteLength\":126,\"uri\":\"square.bin\"",
-	    "mesh 0, primitive 0: accessor 0: buffer 0 is the file square.bin, which is missing");
+	    "mesh 0, primitive 0: accessor 0: buffer 0: the file square.bin is missing");
 	refuses("\"byteLength\":126", "\"byteLength\":400",
 	    "mesh 0, primitive 0: accessor 0: buffer 0 should have 400 bytes, and has 128");
 	refuses("\"byteLength\":72", "\"byteLength\":200",

@@ -114,12 +114,12 @@ materials(void **state)
 	assert_int_equal(count, 5);
 	assert_true(
 	    look[0].colored && look[0].color[0] == 1 && look[0].color[1] == 0.5 && look[0].color[2] == 0);
-	assert_null(look[0].file);
+	assert_null(look[0].file.name);
 	assert_true(look[1].colored && look[1].color[2] == 0.25);
-	assert_string_equal(look[1].file, "folder/a b.png");
+	assert_string_equal(look[1].file.name, "folder/a b.png");
 	assert_false(look[2].colored);
-	assert_null(look[3].file);
-	assert_string_equal(look[4].file, "folder/absolute.png");
+	assert_null(look[3].file.name);
+	assert_string_equal(look[4].file.name, "folder/absolute.png");
 	assert_string_equal(heard, "1 ../outside.png\n1 gone.mtl\n1 material green\n");
 	mr_ctx_free(&ctx);
 }
