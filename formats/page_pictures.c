@@ -116,25 +116,27 @@ to_byte(double x)
 }
 
 /* The line of a material: its number, its colour or -, the number of its picture or -. */
-static void
+static mr_status
 wear_material(
     mr_ctx *ctx, mr_page_pictures *p, const char *layer, size_t i, const mr_material *m, mr_text *notes)
 {
 	const char *color = "-";
 	size_t number = 0;
-	bool pictured = false;
+	mr_status status = m->file.name ? find_picture(ctx, p, &m->file, &number) : MR_OK;
+	bool pictured = m->file.name && status == MR_OK;
 
-	if (m->file.name && find_picture(ctx, p, &m->file, &number) < 0)
+	if (status == MR_EMEM)
+		return status;
+	if (status < 0)
 		mr_found(ctx, &(mr_finding){ .kind = MR_MISSING, .what = m->file.name });
-	else
-		pictured = m->file.name != NULL;
 	if (!pictured && !m->colored)
-		return;
+		return MR_OK;
 	if (m->colored)
 		color = mr_format(
 		    ctx, "%u,%u,%u", to_byte(m->color[0]), to_byte(m->color[1]), to_byte(m->color[2]));
 	mr_text_add(notes, "material %s %zu %s %s\n", layer, i, color,
 	    pictured ? mr_format(ctx, "%zu", number) : "-");
+	return MR_OK;
 }
 
 static mr_status
@@ -145,7 +147,7 @@ wear_materials(mr_ctx *ctx, mr_page_pictures *p, const mr_model *m, const char *
 
 	MR_TRY(mr_materials_find(ctx, m, p->materials, &look, &count));
 	for (size_t i = 0; i < count; i++)
-		wear_material(ctx, p, layer, i, &look[i], notes);
+		MR_TRY(wear_material(ctx, p, layer, i, &look[i], notes));
 	p->worn = true;
 	return MR_OK;
 }

@@ -22,10 +22,11 @@ static mr_status
 read_texture(mr_ctx *ctx, mr_ctx *keep, const mr_file *file, mr_texture *texture)
 {
 	mr_image image;
+	mr_status status = mr_image_read(keep, file, &image);
 
-	if (mr_image_read(keep, file, &image) < 0 || mr_texture_make(keep, &image, texture) < 0)
-		return mr_fail_as(ctx, keep, MR_EFORMAT);
-	return MR_OK;
+	if (status == MR_OK)
+		status = mr_texture_make(keep, &image, texture);
+	return mr_fail_as(ctx, keep, status);
 }
 
 /* One picture for all faces. */
@@ -42,10 +43,11 @@ wear_one(mr_ctx *ctx, mr_ctx *keep, const char *file, size_t nf, mr_paint *paint
 }
 
 /* The pictures of materials, each file read once; number: of each material's, or MR_NONE. */
-static void
+static mr_status
 read_pictures(
     mr_ctx *ctx, mr_ctx *keep, const mr_material *look, size_t count, mr_texture *texture, uint32_t *number)
 {
+	mr_status status;
 	uint32_t n = 0;
 
 	for (size_t i = 0; i < count; i++) {
@@ -56,11 +58,14 @@ read_pictures(
 				number[i] = number[k];
 		if (!name || number[i] != MR_NONE)
 			continue;
-		if (read_texture(ctx, keep, &look[i].file, &texture[n]) < 0)
-			mr_tell(ctx, MR_MISSING, 1, "%s, a picture", ctx->error);
-		else
+		status = read_texture(ctx, keep, &look[i].file, &texture[n]);
+		if (status == MR_EMEM)
+			return status;
+		mr_tell(ctx, MR_MISSING, status < 0, "%s, a picture", ctx->error);
+		if (status == MR_OK)
 			number[i] = n++;
 	}
+	return MR_OK;
 }
 
 static mr_rgb
@@ -71,7 +76,7 @@ to_rgb(const double c[3])
 }
 
 /* The picture of each face's material, or its colour. */
-static void
+static mr_status
 wear_materials(
     mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const mr_material *look, size_t count, mr_subject *s)
 {
@@ -80,7 +85,7 @@ wear_materials(
 	mr_rgb *color = MR_NEW(keep, m->nf, mr_rgb);
 	bool colored = false;
 
-	read_pictures(ctx, keep, look, count, texture, number);
+	MR_TRY(read_pictures(ctx, keep, look, count, texture, number));
 	for (size_t f = 0; f < m->nf; f++) {
 		const mr_material *l = m->material[f] < count ? &look[m->material[f]] : NULL;
 		of[f] = l ? number[m->material[f]] : MR_NONE;
@@ -91,6 +96,7 @@ wear_materials(
 	s->paint.of = of;
 	s->color = colored ? color : NULL;
 	s->per_face = colored;
+	return MR_OK;
 }
 
 /* What the paint of a layer is made of. */
@@ -131,8 +137,7 @@ mr_paint_model(
 	if (picture)
 		return wear_one(ctx, keep, picture, m->nf, &s->paint);
 	MR_TRY(mr_materials_find(ctx, m, materials, &look, &count));
-	wear_materials(ctx, keep, m, look, count, s);
-	return MR_OK;
+	return wear_materials(ctx, keep, m, look, count, s);
 }
 
 static mr_status

@@ -146,7 +146,7 @@ mr_png_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image
 	png_image_free(&png);
 	MR_TRY(status);
 	if (PNG_IMAGE_FAILED(png))
-		return mr_fail(ctx, MR_EFORMAT, "%s", png.message);
+		return mr_fail(ctx, strstr(png.message, "memory") ? MR_EMEM : MR_EFORMAT, "%s", png.message);
 	*image = made;
 	return MR_OK;
 }

@@ -18,14 +18,20 @@ for suffix in xyz pts pwn; do
 done
 mr-export --quantize --compress packed.glb <mesh.mrs
 gzip -k model.obj
+mr-make sphere -n 100 --texcoords -o card.mrs
+mr-render -s 32x32 --no-labels card.png card.mrs
+mr-map --bake card.mrs --texture card.png -w card --size 64 card.mrs | mr-export --materials . textured.glb
+mr-import textured.glb -o textured.mrs
 
-for model in model.obj.gz model.ply model.stl model.off model.glb packed.glb model.xyz model.pts model.pwn; do
+for model in model.obj.gz model.ply model.stl model.off model.glb packed.glb textured.glb model.xyz model.pts model.pwn; do
 	try mr-import -j1 $model
 done
 for suffix in obj.gz ply stl off glb; do
 	try mr-export -j1 -i mesh.mrs made/x.$suffix
 done
 try mr-export -j1 -i mesh.mrs --quantize --compress made/x.glb
+try mr-export -j1 -i textured.mrs made/x.glb
+try mr-export -j1 -i textured.mrs made/x.obj
 try mr-make -j1 torus -n 300 --noise 0.01 --seed 3
 try mr-make -j1 knot -n 300 --points 200
 try mr-cat -j1 -z mesh.mrs points.mrs
@@ -61,3 +67,5 @@ try mr-map -j1 -w made/x displaced.mrs
 try mr-map -j1 --bake points.mrs -w made/y --size 64 displaced.mrs
 try mr-render -j1 --size 64x64 -i mesh.mrs made/x.png
 try mr-view -j1 -i posed.mrs made/x.html
+try mr-render -j1 --size 64x64 -i textured.mrs made/x.png
+try mr-view -j1 -i textured.mrs made/x.html
