@@ -1,4 +1,5 @@
-# README.md: its table of tools is that of the pages, its shell blocks run as they stand, and make has its targets.
+# README.md: its table of tools is that of the pages, its shell blocks and recipes run as they stand, and make has its
+# targets.
 # It and the pages for contributors name only files that exist.
 fail=0
 "$TOP/tests/readme" >new || exit
@@ -11,6 +12,10 @@ grep -q mr-solve blocks && grep -q mr-sample blocks || { echo "README.md: a pape
 mkdir work && cd work || exit
 sh -e ../blocks >../said 2>&1 || { cat ../said; echo "an example of README.md fails"; fail=1; }
 [ ! -s ../said ] || { cat ../said; echo "an example of README.md is not silent"; fail=1; }
+# Its recipes work on the files that these have made; make's are for a folder of models.
+awk -F'`' '/^\|.*`mr-/ && !/\]\(man/ { gsub(/\\\|/, "|", $2); print $2 }' "$TOP/README.md" >../recipes
+[ -s ../recipes ] || { echo "README.md: no recipe"; fail=1; }
+sh -e ../recipes >../said 2>&1 || { cat ../said; echo "a recipe of README.md fails"; fail=1; }
 cd .. || exit
 
 # Pages, and the targets that they call by `make X` or on a line of their own.
