@@ -2,6 +2,7 @@
 #include "judge/judge.h"
 
 #include "measure/gaps.h"
+#include "mesh/repair.h"
 #include "space/contact.h"
 #include "space/self_intersect.h"
 
@@ -21,6 +22,29 @@ judge_size(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, bool several)
 		mr_found(ctx, &(mr_finding){ .kind = MR_VOLUME, .layer = now->name, .value = change });
 	else if (lost > MUCH)
 		mr_found(ctx, &(mr_finding){ .kind = MR_SHRUNK, .layer = now->name, .value = lost });
+}
+
+/* part: of each vertex, the first that stands for its part.  Those at one place belong together, as seams do.
+ */
+static void
+label_parts(mr_ctx *ctx, const mr_mesh *m, uint32_t **part)
+{
+	uint32_t *map = MR_NEW(ctx, m->nv, uint32_t), *first = MR_NEW(ctx, m->nv, uint32_t), *joined;
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	size_t n;
+	bool several;
+
+	mr_weld(ctx, m->p, m->nv, 1e-8 * mr_mesh_diagonal(m), map, &n);
+	for (size_t v = m->nv; v-- > 0;)
+		first[map[v]] = (uint32_t)v;
+	for (size_t v = 0; v < m->nv; v++)
+		map[v] = first[map[v]];
+	for (size_t h = 0; h < 3 * m->nf; h++)
+		t[h / 3].v[h % 3] = map[m->t[h / 3].v[h % 3]];
+	mr_components_label(ctx, &(mr_mesh){ m->name, m->p, t, m->nv, m->nf }, &joined, &several);
+	for (size_t v = 0; v < m->nv; v++)
+		map[v] = joined[map[v]];
+	*part = map;
 }
 
 /* The area of each part, by the vertex of `whole` that stands for it: of a face the nearest one of whole. */
@@ -56,15 +80,16 @@ match_parts(mr_ctx *ctx, const mr_mesh *then, const uint32_t *of, const mr_bvh *
 
 /* Parts that have lost over half of their area. */
 static void
-judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, const uint32_t *of)
+judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
 {
 	const double half = 0.5;
 	double *was = MR_NEW_ZERO(ctx, then->nv, double), *is = MR_NEW_ZERO(ctx, then->nv, double),
 	       least = half;
 	mr_finding f = { .kind = MR_GONE, .layer = now->name, .vertex = MR_NO_VERTEX };
-	uint32_t *match;
+	uint32_t *of, *match;
 	mr_bvh *bvh;
 
+	label_parts(ctx, then, &of);
 	mr_bvh_build(ctx, then, &bvh);
 	match_parts(ctx, then, of, bvh, now, &match);
 	add_areas(then, of, was);
@@ -162,7 +187,7 @@ mr_judge_remade(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
 	if (!(mr_mesh_area(ctx, then) > 0 && mr_mesh_area(ctx, now) > 0))
 		return;
 	if (several)
-		judge_parts(ctx, then, now, of);
+		judge_parts(ctx, then, now);
 	mr_bvh_build(ctx, now, &bvh);
 	judge_distance(ctx, then, now, bvh);
 	judge_intersections(ctx, then, now, bvh);

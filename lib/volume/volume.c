@@ -240,12 +240,13 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 static void
 drop_sides(mr_ctx *ctx, volume *v)
 {
-	mr_found(
-	    ctx, &(mr_finding){ .kind = MR_GUESSED,
-		     .layer = "points",
-		     .what = v->side.normals
-	                         ? "the normals of the points contradict their places, and are not used"
-	                         : "the places of the scanner contradict the points, and are not used" });
+	const char *what = !v->side.normals
+	                       ? "the places of the scanner contradict the points, and are not used"
+	                   : v->found.sided
+	                       ? "the normals of the points contradict their places, and are not used"
+	                       : "the normals of the points have no length, and are not used";
+
+	mr_found(ctx, &(mr_finding){ .kind = MR_GUESSED, .layer = "points", .what = what });
 	v->found.sided = 0;
 	v->side.toward = NULL;
 }

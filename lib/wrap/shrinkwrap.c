@@ -102,7 +102,9 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 	if (cloud->flat)
 		return mr_fail(ctx, MR_EMESH, "%zu points lie in a plane: no surface closes around them%s",
 		    cloud->sampling.n,
-		    cloud->sampling.n < MR_WRAP_FIELD_LEAST ? ", and they are too few for an open one" : "");
+		    cloud->sampling.n < MR_WRAP_FIELD_LEAST
+			? mr_format(ctx, ", and an open one needs %d", MR_WRAP_FIELD_LEAST)
+			: "");
 	if (o->method == MR_WRAP_CUBE || (o->method == MR_WRAP_AUTO && cloud->n <= FEW))
 		return wrap_cube(ctx, cloud, o, o->method == MR_WRAP_AUTO, c);
 	return wrap_volume(ctx, cloud, o, c);
