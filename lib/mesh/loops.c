@@ -86,7 +86,7 @@ mr_loops_find(mr_ctx *ctx, const mr_mesh *m, mr_loops *loops)
 
 /* ---- spans ---- */
 
-enum { MOST = 100 };
+enum { MOST = 256 };
 
 /* What triangles that span corners i to j cost: the largest angle, as minus its cosine, then the area. */
 typedef struct cost {
@@ -198,7 +198,7 @@ span_corners(span *s, const uint32_t *corner, size_t n)
 	mr_mark_release(s->ctx, mark);
 }
 
-/* Triangles of n corners: a hundred of them at equal strides, then those between two of these. */
+/* Triangles of n corners: as many as it takes at equal strides, then those between two of these. */
 static void
 span_strides(span *s, const uint32_t *corner, size_t n)
 {

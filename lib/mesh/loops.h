@@ -19,7 +19,7 @@ void mr_loops_find(mr_ctx *ctx, const mr_mesh *m, mr_loops *loops);
 /* Spans the closed polygon p of n >= 3 corners by n - 2 triangles t, the caller's, along its edges backwards:
  * of the least largest angle between neighbours, then of the least area (Liepa 2003; Barequet, Sharir 1995).
  * beside: the normal of the face beyond each edge, 0: none.  taken: whether corners have an edge in common
- * already, which is avoided.  Beyond a hundred corners every so many are spanned first. */
+ * already, which is avoided.  Beyond 256 corners every so many are spanned first. */
 void mr_span(mr_ctx *ctx, const mr_v3 *p, const mr_v3 *beside, size_t n,
     bool (*taken)(const void *arg, uint32_t i, uint32_t j), const void *arg, mr_tri *t);
 
