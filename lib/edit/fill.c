@@ -4,7 +4,7 @@
 
 #include "edit/deform.h"
 #include "edit/deform_system.h"
-#include "mesh/loops.h"
+#include "edit/islands.h"
 #include "op/laplace.h"
 #include "remesh/relax.h"
 #include "space/contact.h"
@@ -26,6 +26,7 @@ typedef struct filler {
 	mr_loops loops;
 	hole *hole; /* n, the shortest first */
 	size_t n;
+	uint32_t *next;     /* of each loop the next of its hole, first the rim, then those of islands */
 	mr_patch around;    /* the surface near the rims */
 	uint32_t *at;       /* of each vertex of the rims, where it is in that */
 	mr_adjacency joins; /* of that */
@@ -47,27 +48,71 @@ by_length(const void *a, const void *b)
 	                              : (x->loop > y->loop) - (x->loop < y->loop);
 }
 
+/* The area of its component, by each vertex that stands for one. */
+static double *
+find_areas(filler *w, const uint32_t *component)
+{
+	double *area = MR_NEW_ZERO(w->ctx, w->m->nv, double);
+
+	for (size_t f = 0; f < w->m->nf; f++)
+		area[component[w->m->t[f].v[0]]] += mr_norm(mr_face_cross(w->m, f)) / 2;
+	return area;
+}
+
+static double
+length_of(const filler *w, uint32_t loop)
+{
+	const mr_mesh *m = w->m;
+	double l = 0;
+
+	for (size_t k = w->loops.start[loop]; k < w->loops.start[loop + 1]; k++)
+		l += mr_dist(m->p[mr_he_from(m, w->loops.he[k])], m->p[mr_he_to(m, w->loops.he[k])]);
+	return l;
+}
+
+/* Leaves out the loops of islands, which go with their hole. */
+static void
+find_islands(filler *w, const uint32_t *component, const bool *open)
+{
+	uint32_t *holes = MR_NEW(w->ctx, w->n, uint32_t);
+	bool *taken = MR_NEW_ZERO(w->ctx, w->loops.count, bool);
+	size_t n = w->n;
+
+	for (size_t i = 0; i < n; i++)
+		holes[i] = w->hole[i].loop;
+	mr_islands_find(w->ctx, w->m, &w->loops, component, open, holes, n, w->next);
+	for (size_t i = 0; i < w->loops.count; i++)
+		if (w->next[i] != MR_NONE)
+			taken[w->next[i]] = true;
+	w->n = 0;
+	for (size_t i = 0; i < n; i++)
+		if (!taken[w->hole[i].loop])
+			w->hole[w->n++] = w->hole[i];
+}
+
 static void
 choose_loops(filler *w)
 {
 	const mr_mesh *m = w->m;
-	double *area = MR_NEW_ZERO(w->ctx, m->nv, double); /* of each component */
+	double *area, most = w->o->max_length * (w->o->max_length_relative ? mr_mesh_diagonal(m) : 1);
+	bool *open = MR_NEW(w->ctx, w->loops.count, bool), several;
 	uint32_t *component;
-	bool several;
-	double most = w->o->max_length * (w->o->max_length_relative ? mr_mesh_diagonal(m) : 1);
 
 	mr_components_label(w->ctx, m, &component, &several);
-	for (size_t f = 0; f < m->nf; f++)
-		area[component[m->t[f].v[0]]] += mr_norm(mr_face_cross(m, f)) / 2;
+	area = find_areas(w, component);
 	w->hole = MR_NEW(w->ctx, w->loops.count, hole);
+	w->next = MR_NEW(w->ctx, w->loops.count, uint32_t);
+	memset(w->next, 0xff, w->loops.count * sizeof *w->next);
 	for (uint32_t i = 0; i < w->loops.count; i++) {
-		double l = 0, all = area[component[mr_he_from(m, w->loops.he[w->loops.start[i]])]];
-		for (size_t k = w->loops.start[i]; k < w->loops.start[i + 1]; k++)
-			l += mr_dist(m->p[mr_he_from(m, w->loops.he[k])], m->p[mr_he_to(m, w->loops.he[k])]);
-		if (most > 0 ? l <= most : w->o->loops > 0 || l * l <= 4 * MR_PI * OPEN * all)
+		double l = length_of(w, i),
+		       all = area[component[mr_he_from(m, w->loops.he[w->loops.start[i]])]];
+		open[i] = l * l > 4 * MR_PI * OPEN * all;
+		if (most > 0 ? l <= most : w->o->loops > 0 || !open[i])
 			w->hole[w->n++] = (hole){ l, i };
 	}
 	qsort(w->hole, w->n, sizeof *w->hole, by_length);
+	if (several && w->n > 0)
+		find_islands(w, component, open);
 	if (w->o->loops > 0 && w->n > w->o->loops)
 		w->n = w->o->loops;
 }
@@ -120,26 +165,96 @@ are_joined(const filler *w, uint32_t a, uint32_t b)
 	return i < end;
 }
 
+/* The polygon along the loops of a hole. */
 typedef struct corners {
 	const filler *w;
-	uint32_t first;
+	uint32_t *corner; /* n of the rims */
+	size_t n;
+	uint32_t (*bridge)[2];
+	size_t bridges;
 } corners;
 
 static bool
 is_taken(const void *arg, uint32_t i, uint32_t j)
 {
 	const corners *c = arg;
+	uint32_t a = c->corner[i], b = c->corner[j];
+	bool taken = a == b || are_joined(c->w, a, b);
 
-	return are_joined(c->w, c->first + i, c->first + j);
+	for (size_t k = 0; k < c->bridges; k++)
+		taken |= (a == c->bridge[k][0] && b == c->bridge[k][1]) ||
+		         (b == c->bridge[k][0] && a == c->bridge[k][1]);
+	return taken;
+}
+
+/* The polygon of hole l without islands. */
+static corners
+rim_of(const filler *w, size_t l, uint32_t first)
+{
+	corners c = { .w = w, .n = w->loops.start[w->hole[l].loop + 1] - w->loops.start[w->hole[l].loop] };
+
+	c.corner = MR_NEW(w->ctx, c.n, uint32_t);
+	for (uint32_t i = 0; i < c.n; i++)
+		c.corner[i] = first + i;
+	return c;
+}
+
+/* The polygon of hole l, whose rims begin with `first`; *end: where they end. */
+static corners
+find_corners(const filler *w, size_t l, const mr_v3 *p, uint32_t first, uint32_t *end)
+{
+	corners rim = rim_of(w, l, first), c = rim;
+	uint32_t *start, rim_loop = w->hole[l].loop, n = 0;
+
+	for (uint32_t i = w->next[rim_loop]; i != MR_NONE; i = w->next[i])
+		c.bridges++;
+	start = MR_NEW(w->ctx, c.bridges + 1, uint32_t);
+	*start = first + (uint32_t)rim.n;
+	for (uint32_t i = w->next[rim_loop]; i != MR_NONE; i = w->next[i], n++)
+		start[n + 1] = start[n] + (uint32_t)(w->loops.start[i + 1] - w->loops.start[i]);
+	*end = start[n];
+	c.bridge = mr_alloc(w->ctx, c.bridges, sizeof *c.bridge);
+	c.corner = MR_NEW(w->ctx, *end - first + 2 * c.bridges, uint32_t);
+	memcpy(c.corner, rim.corner, rim.n * sizeof *c.corner);
+	mr_islands_join(p, start, c.bridges, c.corner, &c.n, c.bridge);
+	return c;
+}
+
+/* n - 2 triangles of the rims.  beside: the normal of the face at each of their half-edges. */
+static void
+span_corners(const corners *c, const mr_v3 *p, const mr_v3 *beside, mr_tri *t)
+{
+	const filler *w = c->w;
+	mr_v3 *at = MR_NEW(w->ctx, c->n, mr_v3), *normal = MR_NEW_ZERO(w->ctx, c->n, mr_v3);
+
+	for (size_t i = 0; i < c->n; i++) {
+		uint32_t a = c->corner[i], b = c->corner[i + 1 == c->n ? 0 : i + 1];
+		at[i] = p[a];
+		if (mr_he_to(w->m, w->he[a]) == mr_he_from(w->m, w->he[b]))
+			normal[i] = beside[a];
+	}
+	mr_span(w->ctx, at, normal, c->n, is_taken, c, t);
+	for (size_t i = 0; i < 3 * (c->n - 2); i++)
+		t[i / 3].v[i % 3] = c->corner[t[i / 3].v[i % 3]];
+}
+
+/* Whether no edge comes twice, to the two copies of a bridge's end. */
+static bool
+is_manifold(const filler *w, const mr_v3 *p, const mr_tri *t, size_t n)
+{
+	mr_topology topo;
+
+	return mr_topology_build(w->ctx, &(mr_mesh){ w->m->name, p, t, w->rim, n }, &topo) == MR_OK;
 }
 
 /* Spans every loop, and makes the patches of that. */
 static mr_status
 span_loops(filler *w)
 {
-	size_t nf = 0, first = 0;
+	size_t nf = 0;
+	uint32_t first = 0, end;
 	mr_v3 *p = MR_NEW(w->ctx, w->rim, mr_v3), *beside = MR_NEW(w->ctx, w->rim, mr_v3);
-	mr_tri *t = MR_NEW(w->ctx, w->rim, mr_tri);
+	mr_tri *t = MR_NEW(w->ctx, w->rim + 2 * w->loops.count, mr_tri);
 	mr_topology topo;
 	mr_mesh m;
 
@@ -147,13 +262,14 @@ span_loops(filler *w)
 		p[i] = w->m->p[mr_he_from(w->m, w->he[i])];
 		beside[i] = mr_face_cross(w->m, w->he[i] / 3);
 	}
-	for (size_t l = 0, n; l < w->n; l++, first += n) {
-		corners c = { w, (uint32_t)first };
-		n = w->loops.start[w->hole[l].loop + 1] - w->loops.start[w->hole[l].loop];
-		mr_span(w->ctx, p + first, beside + first, n, is_taken, &c, t + nf);
-		for (size_t end = nf + n - 2; nf < end; nf++)
-			for (int k = 0; k < 3; k++)
-				t[nf].v[k] += (uint32_t)first;
+	for (size_t l = 0; l < w->n; l++, first = end) {
+		corners c = find_corners(w, l, p, first, &end);
+		span_corners(&c, p, beside, t + nf);
+		if (c.bridges > 0 && !is_manifold(w, p, t + nf, c.n - 2)) {
+			c = rim_of(w, l, first);
+			span_corners(&c, p, beside, t + nf);
+		}
+		nf += c.n - 2;
 	}
 	m = (mr_mesh){ w->m->name, p, t, w->rim, nf };
 	MR_TRY(mr_topology_build(w->ctx, &m, &topo));
@@ -468,12 +584,13 @@ report(const filler *w, const bool *bad, mr_fill_result *r)
 {
 	mr_finding f = { .kind = MR_LIMIT, .layer = w->m->name, .placed = true };
 
-	for (size_t l = w->n; l-- > 0;)
-		if (bad[l]) {
+	for (size_t l = w->n; l-- > 0;) {
+		size_t *count = bad[l] ? &r->crossing : &r->filled;
+		for (uint32_t i = w->hole[l].loop; i != MR_NONE; i = w->next[i])
+			++*count;
+		if (bad[l])
 			f.vertex = mr_he_from(w->m, w->loops.he[w->loops.start[w->hole[l].loop]]);
-			r->crossing++;
-		}
-	r->filled = w->n - r->crossing;
+	}
 	if (w->loops.broken)
 		mr_found(w->ctx, &(mr_finding){ .kind = MR_LIMIT,
 				     .layer = w->m->name,
@@ -483,27 +600,64 @@ report(const filler *w, const bool *bad, mr_fill_result *r)
 	if (r->crossing == 0)
 		return;
 	f.at = w->m->p[f.vertex];
-	f.what = mr_format(
-	    w->ctx, "open, as their filling would cross the surface: %zu of %zu holes", r->crossing, w->n);
+	f.what = mr_format(w->ctx, "open, as their filling would cross the surface: %zu of %zu holes",
+	    r->crossing, r->crossing + r->filled);
 	mr_found(w->ctx, &f);
 }
 
-/* The rims of the loops that are filled, one after another. */
+/* The rims of the loops that are filled, hole by hole. */
 static void
 list_rims(filler *w)
 {
+	size_t n = 0;
+
+	w->rim = w->loop_room = w->edge_room = 0;
 	for (size_t l = 0; l < w->n; l++)
-		w->rim += w->loops.start[w->hole[l].loop + 1] - w->loops.start[w->hole[l].loop];
+		for (uint32_t i = w->hole[l].loop; i != MR_NONE; i = w->next[i])
+			w->rim += w->loops.start[i + 1] - w->loops.start[i];
 	w->he = MR_NEW(w->ctx, w->rim, uint32_t);
 	w->at = MR_NEW(w->ctx, w->rim, uint32_t);
 	MR_RESERVE(w->ctx, w->loop, 0, w->rim, &w->loop_room);
 	MR_RESERVE(w->ctx, w->edge, 0, w->rim, &w->edge_room);
-	for (size_t l = 0, i = 0; l < w->n; l++)
-		for (size_t k = w->loops.start[w->hole[l].loop]; k < w->loops.start[w->hole[l].loop + 1];
-		     k++) {
-			w->loop[i] = (uint32_t)l;
-			w->he[i++] = w->loops.he[k];
+	for (size_t l = 0; l < w->n; l++)
+		for (uint32_t i = w->hole[l].loop; i != MR_NONE; i = w->next[i])
+			for (size_t k = w->loops.start[i]; k < w->loops.start[i + 1]; k++) {
+				w->loop[n] = (uint32_t)l;
+				w->he[n++] = w->loops.he[k];
+			}
+}
+
+/* Leaves the islands of holes alone that cannot be filled with them.  Whether there are such. */
+static bool
+leave_islands(filler *w, const bool *bad)
+{
+	bool any = false;
+
+	for (size_t l = 0; l < w->n; l++)
+		if (bad[l] && w->next[w->hole[l].loop] != MR_NONE) {
+			w->next[w->hole[l].loop] = MR_NONE;
+			any = true;
 		}
+	return any;
+}
+
+static mr_status
+fill_holes(filler *w, bool *bad, mr_patches *out)
+{
+	list_rims(w);
+	look_around(w);
+	MR_TRY(span_loops(w));
+	MR_TRY(refine(w));
+	MR_TRY(fair(w, 1, 0, w->n));
+	for (int i = 0; i < 2 && w->o->order > 1; i++) {
+		MR_TRY(refine(w));
+		MR_TRY(fair(w, w->o->order, 0, w->n));
+	}
+	MR_TRY(settle(w, bad, out));
+	if (!leave_islands(w, bad))
+		return MR_OK;
+	memset(bad, 0, w->n * sizeof *bad);
+	return fill_holes(w, bad, out);
 }
 
 mr_status
@@ -514,21 +668,11 @@ mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out, m
 
 	mr_loops_find(ctx, m, &w.loops);
 	choose_loops(&w);
-	list_rims(&w);
 	bad = MR_NEW_ZERO(ctx, w.n, bool);
 	*result = (mr_fill_result){ .loops = w.loops.count };
 	*out = (mr_patches){ .all = *m };
-	if (w.n > 0) {
-		look_around(&w);
-		MR_TRY(span_loops(&w));
-		MR_TRY(refine(&w));
-		MR_TRY(fair(&w, 1, 0, w.n));
-		for (int i = 0; i < 2 && o->order > 1; i++) {
-			MR_TRY(refine(&w));
-			MR_TRY(fair(&w, o->order, 0, w.n));
-		}
-		MR_TRY(settle(&w, bad, out));
-	}
+	if (w.n > 0)
+		MR_TRY(fill_holes(&w, bad, out));
 	report(&w, bad, result);
 	result->vertices = out->m.nv - out->rim;
 	result->faces = out->m.nf;

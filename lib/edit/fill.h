@@ -10,12 +10,12 @@ typedef struct mr_patches {
 	mr_mesh m, all;
 	size_t rim;
 	const uint32_t *he;
-	const uint32_t *loop; /* of each vertex: which loop it fills, 0 the shortest */
+	const uint32_t *loop; /* of each vertex: which hole it fills, 0 the shortest */
 } mr_patches;
 
 /* Fills the boundary loops that the options choose, by default those no longer than a circle of a quarter of
- * their component's area.  What no patch fills without crossing the surface or a shorter loop's patch stays
- * open, and is reported.  out: in the arena. */
+ * their component's area, each with those of islands in it.  What no patch fills without crossing the surface
+ * or a shorter loop's patch stays open, and is reported.  out: in the arena. */
 mr_status mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out,
     mr_fill_result *result) MR_WARN_UNUSED;
 

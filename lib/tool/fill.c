@@ -120,7 +120,8 @@ make_corners(filled *w, const mr_carried *c)
 
 	begin(w, wide);
 	for (size_t i = 0, begun = 0; i < w->s.rim; i++) {
-		bool last = i + 1 == w->s.rim || w->s.loop[i + 1] != w->s.loop[i];
+		bool last = i + 1 == w->s.rim || w->s.loop[i + 1] != w->s.loop[i] ||
+		            mr_he_from(w->m, w->s.he[i + 1]) != mr_he_to(w->m, w->s.he[i]);
 		const double *end = from + mr_he_next(w->s.he[i]) * wide;
 		const double *start = from + w->s.he[last ? begun : i + 1] * wide;
 		memcpy(w->x + i * wide, from + w->s.he[i] * wide, wide * sizeof *end);

@@ -64,6 +64,23 @@ for x in -1 1; do
 done
 mr-export -q -f obj - <out.mrs | awk '/^vn/ && ($2 ^ 2 + $3 ^ 2 + $4 ^ 2 - 1) ^ 2 > 1e-12 { bad++ } END { print bad + 0 " bad normals" }'
 
+echo 'a piece that lies in a hole is joined to it, with colours; turned over it is left alone'
+mr-make plane -n 800 | mr-export -f obj - | awk '/^v / { print $1, $2, $3, $4, ($2 + 1) / 2, 0.5, 0; next } { print }' >plane.obj
+mr-import plane.obj -o plane.mrs
+mr-crop --drop sphere:0,0,0,0.4 plane.mrs -o around.mrs
+mr-crop --keep sphere:0,0,0,0.2 plane.mrs -o island.mrs
+mr-export -q -f obj - <island.mrs | awk '/^f/ { print $1, $2, $4, $3; next } { print }' >over.obj
+mr-import over.obj | mr-cat --append around.mrs - -o over.mrs
+mr-cat --append around.mrs island.mrs -o both.mrs
+for o in over.mrs both.mrs '--loops 1 both.mrs'; do
+	figures $o 2>&1
+	topology out.mrs
+done
+mr-export -f off - <both.mrs | sed 1,2d >before
+mr-export -f off - <out.mrs | sed 1,2d >after
+grep -vxFf after before | wc -l
+mr-export -q -f obj - <out.mrs | awk '/^v / { d = $5 - ($2 + 1) / 2; n++; bad += d > 0.01 || d < -0.01 || $4 != 0 } END { print bad + 0 " vertices are off" }'
+
 echo 'a filling that would cross the surface'
 cat >crossing.off <<'END'
 OFF

@@ -102,6 +102,61 @@ test_bumpy(void **state)
 	assert_true(farthest(&s, &bumpy) < 0.05);
 }
 
+/* m without the faces that are within `outer` of a place, but for those within `inner` of one. */
+static mr_mesh
+with_islands(const mr_mesh *m, const mr_v3 *place, size_t n, double outer, double inner)
+{
+	mr_mesh out = without(m, place, n, outer);
+	mr_tri *t = MR_NEW(&ctx, m->nf, mr_tri);
+
+	memcpy(t, out.t, out.nf * sizeof *t);
+	for (size_t f = 0; f < m->nf; f++)
+		for (size_t i = 0, near = 0; i < 3 * n; i++) {
+			near = i % 3 == 0 ? 0 : near;
+			near += mr_dist(m->p[m->t[f].v[i % 3]], place[i / 3]) < inner;
+			if (near == 3)
+				t[out.nf++] = m->t[f];
+		}
+	out.t = t;
+	return out;
+}
+
+/* The cap that a band parts from a sphere; two pieces in one hole; each in its own of two holes. */
+static void
+test_islands(void **state)
+{
+	const mr_v3 places[] = { { 0.2, 0.9797958971132712, 0 }, { -0.2, 0.9797958971132712, 0 },
+		{ 0, -1, 0 } };
+	mr_mesh ball = shape(MR_SPHERE, 6000);
+	mr_patches s;
+	mr_mesh open;
+
+	(void)state;
+	for (size_t n = 1; n <= 3; n++) {
+		open = with_islands(&ball, places, n, 0.4, n == 1 ? 0.25 : 0.13);
+		s = filled(&open, 2, n == 3 ? 5 : n + 1);
+		assert_true(farthest(&s, &ball) < 0.02);
+		assert_true(fabs(mr_mesh_volume(&ctx, &s.all) / mr_mesh_volume(&ctx, &ball) - 1) < 0.002);
+	}
+}
+
+/* The area of a plane comes back. */
+static void
+test_island_in_plane(void **state)
+{
+	const mr_v3 middle = { 0, 0, 0 };
+	mr_mesh plane = shape(MR_PLANE, 3000), open = with_islands(&plane, &middle, 1, 0.4, 0.2);
+	mr_fill_opts o = MR_FILL_DEFAULTS;
+	mr_fill_result r;
+	mr_patches s;
+
+	(void)state;
+	assert_int_equal(mr_fill(&ctx, &open, &o, &s, &r), MR_OK);
+	assert_int_equal(r.filled, 2);
+	assert_int_equal(census_of(&s.all).boundary_loops, 1);
+	assert_true(fabs(mr_mesh_area(&ctx, &s.all) - 4) < 1e-9);
+}
+
 static bool
 free_edge(const void *arg, uint32_t i, uint32_t j)
 {
@@ -142,6 +197,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_cap, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_torus, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_bumpy, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_islands, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_island_in_plane, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_span, setup, teardown),
 	};
 
