@@ -22,19 +22,27 @@ rows_of(const mr_frame *f, const char *layer, char element)
 	return 0;
 }
 
+/* A file's own numbers, and texture coordinates of corners, are NaN where there are none. */
+static bool
+may_be_nan(const joined *j)
+{
+	return !strcmp(j->name, "corner_texcoord") ||
+	       (j->first->shape.type == 'd' && !mr_column_known(j->layer, j->name));
+}
+
 /* Whether every frame that has the layer, and rows of the element in it, has the column too, or says by
- * having none what rows of zeros do.  Without polygons each triangle is one. */
+ * having none what rows of zeros do, of NaN, or without a name.  Without polygons each triangle is one. */
 static bool
 all_have(const joined *j)
 {
-	static const char *const names[] = { "polygon", "crease", "smoothing", "detail_offset", NULL };
+	static const char *const names[] = { "polygon", "crease", "smoothing", "detail_offset",
+		"corner_normal", NULL };
+	bool optional = mr_is_one_of(j->name, names) || mr_names_of(j->name) || may_be_nan(j);
 
-	if (mr_is_one_of(j->name, names))
-		return true;
 	for (size_t i = 0; i < j->n; i++) {
 		const mr_column *c = mr_frame_find(j->frames[i], j->layer, j->name);
 		if (c ? !mr_same_shape(c->shape, j->first->shape)
-		      : rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
+		      : !optional && rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
 			return false;
 	}
 	return true;
@@ -54,27 +62,47 @@ add_lines(mr_ctx *ctx, mr_name_table *all, const char *text, size_t bytes, uint3
 		(*number)[i] = mr_name_number(ctx, all, start[i], (size_t)(start[i + 1] - start[i]) - 1);
 }
 
+/* The names of frame i, or the one of rows without. */
+static mr_status
+add_names(mr_ctx *ctx, const joined *j, size_t i, const char *list, mr_name_table *all, uint32_t **number,
+    size_t *n)
+{
+	const void *text = strcmp(list, "groups") ? "" : "default";
+	size_t bytes = strlen(text);
+
+	if (mr_layer_has(j->frames[i], j->layer, list))
+		MR_TRY(mr_frame_get(
+		    ctx, j->frames[i], j->layer, list, (mr_shape){ '-', 't', 1 }, &text, &bytes));
+	bytes -= bytes > 0 && !*j->layer && ((const char *)text)[bytes - 1] == '\n';
+	add_lines(ctx, all, text, bytes, number, n);
+	return MR_OK;
+}
+
+static bool
+is_list(const char *name)
+{
+	for (size_t i = 0; i < MR_NAMINGS; i++)
+		if (!strcmp(mr_namings[i].list, name))
+			return true;
+	return false;
+}
+
 /* Texts of no row: the lines of all, each once; of no layer each ends with a newline. */
 static mr_status
 join_text(mr_ctx *ctx, const joined *j, mr_frame *out)
 {
-	const mr_shape shape = { '-', 't', 1 };
 	mr_name_table l = { 0 };
-	const char *text;
-	const void *data;
 	uint32_t *number;
-	size_t bytes, count;
+	size_t count;
 
 	for (size_t i = 0; i < j->n; i++)
-		if (mr_layer_has(j->frames[i], j->layer, j->name)) {
-			MR_TRY(mr_frame_get(ctx, j->frames[i], j->layer, j->name, shape, &data, &bytes));
-			text = data;
-			bytes -= bytes > 0 && !*j->layer && text[bytes - 1] == '\n';
-			add_lines(ctx, &l, text, bytes, &number, &count);
-		}
-	if (l.bytes == 0)
+		if (mr_layer_has(j->frames[i], j->layer, j->name) ||
+		    (is_list(j->name) && rows_of(j->frames[i], j->layer, 'f') > 0))
+			MR_TRY(add_names(ctx, j, i, j->name, &l, &number, &count));
+	if (l.count == 0)
 		return MR_OK;
-	return mr_frame_put(ctx, out, j->layer, j->name, shape, l.text, l.bytes - (*j->layer != 0));
+	return mr_frame_put(
+	    ctx, out, j->layer, j->name, (mr_shape){ '-', 't', 1 }, l.text, l.bytes - (*j->layer != 0));
 }
 
 /* ---- rows ---- */
@@ -112,14 +140,14 @@ typedef struct following {
 static mr_status
 follow_names(mr_ctx *ctx, const joined *j, size_t i, const char *names, uint32_t *x, size_t n, following *w)
 {
-	const void *text = "";
 	uint32_t *number;
-	size_t bytes = 0, count;
+	size_t count;
 
-	if (!mr_layer_has(j->frames[i], j->layer, names))
+	if (n == 0)
 		return MR_OK;
-	MR_TRY(mr_layer_get(ctx, j->frames[i], j->layer, names, &text, &bytes));
-	add_lines(ctx, &w->names, text, bytes, &number, &count);
+	MR_TRY(add_names(ctx, j, i, names, &w->names, &number, &count));
+	if (!mr_layer_has(j->frames[i], j->layer, names) && mr_layer_has(j->frames[i], j->layer, j->name))
+		return MR_OK;
 	for (size_t k = 0; k < n; k++) {
 		if (x[k] >= count)
 			return mr_fail(ctx, MR_ERANGE, "%s: row %zu of %s is %u of %zu", j->layer, k, j->name,
@@ -162,7 +190,6 @@ copy_rows(mr_ctx *ctx, const joined *j, size_t i, char *x, size_t *n)
 	uint32_t *polygon = (uint32_t *)(void *)x;
 	const void *rows;
 
-	*n = 0;
 	if (mr_layer_has(j->frames[i], j->layer, j->name)) {
 		MR_TRY(mr_frame_get(ctx, j->frames[i], j->layer, j->name, j->first->shape, &rows, n));
 		memcpy(x, rows, *n * width);
@@ -173,6 +200,8 @@ copy_rows(mr_ctx *ctx, const joined *j, size_t i, char *x, size_t *n)
 	} else {
 		*n = rows_of(j->frames[i], j->layer, j->first->shape.element);
 		memset(x, 0, *n * width);
+		for (size_t k = 0; may_be_nan(j) && k < *n * j->first->shape.components; k++)
+			((double *)(void *)x)[k] = (double)NAN;
 	}
 	return MR_OK;
 }
@@ -208,13 +237,13 @@ frames_with(const joined *j, const char *layer)
 	return n;
 }
 
-/* What is of all points, or triangles, of its layer together. */
+/* What is of all points of its layer together. */
 static bool
 is_of_all_rows(const joined *j)
 {
 	const mr_column_info *info = mr_column_of(j->layer, j->name);
 
-	return (info && info->kind == MR_SAMPLED) || !strcmp(j->name, "encoded_faces");
+	return info && info->kind == MR_SAMPLED;
 }
 
 /* Whether the column belongs to one frame alone. */
@@ -228,20 +257,12 @@ is_of_one(const joined *j)
 	return frames_with(j, j->layer) > 1 && is_of_all_rows(j);
 }
 
-static bool
-is_list(const char *name)
-{
-	for (size_t i = 0; i < MR_NAMINGS; i++)
-		if (!strcmp(mr_namings[i].list, name))
-			return true;
-	return !strcmp(name, "mtllib");
-}
-
 /* *left: the column does not stay. */
 static mr_status
 join_column(mr_ctx *ctx, const joined *j, mr_frame *out, bool *left)
 {
-	bool rows = j->first->shape.element != '-', list = j->first->shape.type == 't' && is_list(j->name);
+	bool rows = j->first->shape.element != '-', text = j->first->shape.type == 't',
+	     list = text && (is_list(j->name) || !strcmp(j->name, "mtllib"));
 
 	*left = rows ? !all_have(j) : !list && frames_with(j, j->layer) > 1;
 	if (*left)

@@ -76,3 +76,13 @@ done
 
 echo 'surfaces of one frame each'
 mr-import -l control triangle.obj | mr-cat --append smooth.mrs - | mr-info | grep -E '^  (mesh|base|control):'
+
+echo 'faces without names, texture coordinates or normals stay without'
+printf 'v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n' >plain.obj
+printf 'v 7 0 0\nv 8 0 0\nv 7 1 0\nv 8 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 0 1 1\ng top\nf 1/1/1 2/2/1 3/3/1\nf 2/1/2 4/3/1 3/2/2\n' >grouped.obj
+for order in 'plain square grouped' 'grouped plain'; do
+	for name in $order; do echo $name.obj; done | xargs mr-import | mr-cat --append -o named.mrs && mr-info --check named.mrs >checked
+	mr-export -q -f obj - <named.mrs | grep -v '^#\|^v '
+done
+printf 'x y z depth\n1 2 3 0.5\n' >depth.xyz
+mr-import --points depth.xyz plain.xyz | mr-cat --append | mr-export -q -f ply-ascii - | sed '1,/end_header/d'
