@@ -66,7 +66,7 @@ mr-export -q -f obj - <out.mrs | awk '/^vn/ && ($2 ^ 2 + $3 ^ 2 + $4 ^ 2 - 1) ^ 
 
 echo 'a piece that lies in a hole is joined to it, with colours; turned over it is left alone'
 mr-make plane -n 800 | mr-export -f obj - | awk '/^v / { print $1, $2, $3, $4, ($2 + 1) / 2, 0.5, 0; next } { print }' >plane.obj
-mr-import plane.obj -o plane.mrs
+mr-import -q plane.obj -o plane.mrs
 mr-crop --drop sphere:0,0,0,0.4 plane.mrs -o around.mrs
 mr-crop --keep sphere:0,0,0,0.2 plane.mrs -o island.mrs
 mr-export -q -f obj - <island.mrs | awk '/^f/ { print $1, $2, $4, $3; next } { print }' >over.obj
