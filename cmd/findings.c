@@ -358,8 +358,9 @@ findings_settle(mr_ctx *ctx, findings_book *book, mr_frame *f, void (*say)(void 
 	if (!book->found.n && !book->known.n)
 		return MR_OK;
 	add_all(&all, &book->known);
-	if (say)
-		findings_say(&book->found, &all, say, ctx->listener.user);
+	if (!say)
+		return MR_OK;
+	findings_say(&book->found, &all, say, ctx->listener.user);
 	add_all(&book->known, &book->found);
 	add_all(&all, &book->found);
 	return put(ctx, f, &all);

@@ -64,7 +64,8 @@ rows = [json.loads(line) for line in open("peace/figures.json")]
 bad = len(rows) != 24 or sum(row["verdict"].startswith("failed: ") for row in rows) != 13
 bad |= any("tools" not in row for row in rows[:11])
 raise SystemExit(bad)' || complain "figures.json has not 11 results and 13 failures"
-[ "$(cat peace/*/*.log | wc -l)" -eq 1 ] || { cat peace/*/*.log; complain "the tools say more than what failed"; }
+[ "$(cat peace/*/*.log | grep -vc ': warning: ')" -eq 1 ] ||
+    { cat peace/*/*.log; complain "the tools say more than what failed"; }
 grep -q "^broken.ply	mr-import: .*models/broken.ply: byte" peace/failed.txt ||
 	complain "a broken model without its sentence"
 grep -q "^two words.ply	not begun; no hidden names can be, nor any with blanks" peace/failed.txt ||
