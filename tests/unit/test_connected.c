@@ -173,7 +173,7 @@ static void
 appended_names_and_numbers_follow(void **state)
 {
 	mr_frame *f[3] = { plane("a", 9), plane("b", 4), plane("c", 4) }, *all;
-	const void *group, *polygon, *names;
+	const void *group, *polygon, *names, *quality;
 	const uint32_t first[] = { 0, 0, 1, 1, 2, 2, 3, 3, 8, 8, 10, 10 };
 	const uint32_t numbers[] = { 0, 1, 0, 1, 0, 1, 0, 1, 1, 2, 2, 0 };
 	mr_mesh m;
@@ -197,7 +197,11 @@ appended_names_and_numbers_follow(void **state)
 	assert_memory_equal(names, "left\nright\n", 11);
 	mr_frame_drop(f[1], "mesh", "quality", 0);
 	assert_int_equal(mr_frames_append(&ctx, f, 3, &all), MR_OK);
-	assert_false(mr_layer_has(all, "mesh", "quality"));
+	assert_int_equal(
+	    mr_frame_get(&ctx, all, "mesh", "quality", (mr_shape){ 'v', 'd', 1 }, &quality, &n), MR_OK);
+	assert_int_equal(n, 17);
+	for (size_t v = 0; v < n; v++)
+		assert_true(isnan(((const double *)quality)[v]) == (v >= 9 && v < 13));
 	put_names(f[2], "one");
 	assert_int_equal(mr_frames_append(&ctx, f, 3, &all), MR_ERANGE);
 }
