@@ -108,5 +108,5 @@ for want, r in rows.items():
         mean = math.exp(sum(math.log(x[k]) for x in r) / len(r))
         worst = max(x[k] for x in r)
         print(f"{len(r)} models at {want}, {word}: geometric mean of ratios {mean:.3f}, worst {worst:.3f}")'
-[ -z "${PICTURE:-}" ] || grep -E '^(bunny00|igea|armadillo|camel)-' points |
+[ -z "${PICTURE:-}" ] || grep -E '^(bunny00|stanford-bunny|armadillo|igea)-' points |
     plot "$PICTURE" 'Bytes of a surface: packed, and by Draco' 'mean error, per cent of the diagonal' bytes
