@@ -60,8 +60,8 @@ mr_status mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
  */
 mr_status mr_sink_close(mr_sink *s, mr_status status) MR_WARN_UNUSED;
 
-/* Writes a file beside that of `path`, called as that is without suffix, then `end`.  *name: without folder.
- */
+/* Writes data into a file in the folder of `path`, named path's stem + `end`.  *name: its name without
+ * folder. */
 mr_status mr_put_beside(mr_ctx *ctx, const char *path, const char *end, const void *data, size_t bytes,
     const char **name) MR_WARN_UNUSED;
 

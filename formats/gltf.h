@@ -81,7 +81,7 @@ typedef struct mr_gltf_placing {
 	double offset[2], turn, scale[2]; /* turn: radians */
 } mr_gltf_placing;
 
-/* What the materials of the document look like, and their pictures. */
+/* Looks of the materials of a document, and their pictures. */
 typedef struct mr_gltf_looks {
 	struct mr_material *look; /* of each material */
 	mr_gltf_placing *placing;

@@ -68,7 +68,7 @@ share(const json_t *x, double absent)
 	return fmin(fmax(json_is_number(x) ? json_number_value(x) : absent, 0), 1);
 }
 
-/* What is not there stays. */
+/* Reads up to n numbers of the list; x keeps its values for missing ones. */
 static void
 numbers(const json_t *list, size_t n, double *x)
 {

@@ -30,9 +30,9 @@ const char *mr_file_beside(mr_ctx *ctx, const char *model, const char *name, siz
 /* The file of that name that came with the model in the stream, or none. */
 mr_file mr_file_attached(const mr_model *m, const char *name, size_t bytes);
 
-/* What the files of the model's mtllib, in `folder` or else in the stream, say of each line of its materials.
- * folder NULL: in the stream alone.  A file that is not there is reported, no failure.  list: *count, in the
- * arena; none of a model without materials. */
+/* Reads the MTL files that the model names, from `folder`, else from the stream; folder NULL: from the stream
+ * alone.  Reports a missing file, and goes on.  list: one entry a line of materials, *count in all, in the
+ * arena. */
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 

@@ -176,7 +176,7 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 
 /* ---- files of materials ---- */
 
-/* What goes beside the OBJ. */
+/* The MTL file and pictures written beside the OBJ. */
 typedef struct files {
 	mr_ctx *ctx;
 	const char *path, *stem;

@@ -556,7 +556,7 @@ write_beside(mr_ctx *ctx, mr_page *page)
 	return MR_OK;
 }
 
-/* What the page's stream has of a frame that is beside it: whose file that is, as a part of an address. */
+/* Puts the name of the frame's file, as part of an address, into the page's stream. */
 static mr_status
 put_reference(mr_ctx *ctx, mr_page *page, const mr_frame *frame)
 {

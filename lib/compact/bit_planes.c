@@ -38,8 +38,8 @@ sign_of(uint32_t known)
 	return known == 0 ? 0 : known & NEGATIVE ? -1 : 1;
 }
 
-/* What the context of a coefficient sees: sums of sizes, in halves of the plane's bit, over its neighbours
- * and over the ends of its edge. */
+/* Context of a coefficient: sums of sizes over its neighbours and over the ends of its edge, in halves of the
+ * plane's bit. */
 typedef struct around {
 	uint64_t beside, ends;
 } around;
@@ -94,7 +94,7 @@ around_odd(const coding *s, size_t j, size_t v, unsigned plane)
 	return (around){ (uint64_t)s->beside[v] << 1 >> plane, ends << 1 >> plane };
 }
 
-/* Of a control vertex: four times the mean of its neighbours; their signs. */
+/* Context of a control vertex: four times the mean of its neighbours, and the sum of their signs. */
 static around
 around_control(const coding *s, size_t v, unsigned plane, int *sign)
 {

@@ -44,7 +44,7 @@ void mr_packed_put_colors(mr_ctx *ctx, mr_packed *p, const uint8_t (*color)[4]);
 void mr_packed_heights(const mr_packed *p, size_t level, double *height);
 void mr_packed_colors(const mr_packed *p, size_t level, uint8_t (*color)[4]);
 
-/* Of each vertex on level n of a packed mesh: which it is of the mesh that it was written from; in the arena.
+/* The vertices on level n in the mesh that was packed, for each vertex of the packed one; in the arena.
  * from, to: level n of these; order: of the control mesh. */
 const uint32_t *mr_packed_origin(
     mr_ctx *ctx, const mr_loop *from, const mr_loop *to, size_t n, const mr_control_order *order);

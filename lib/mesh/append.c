@@ -30,8 +30,8 @@ may_be_nan(const joined *j)
 	       (j->first->shape.type == 'd' && !mr_column_known(j->layer, j->name));
 }
 
-/* Whether every frame that has the layer, and rows of the element in it, has the column too, or says by
- * having none what rows of zeros do, of NaN, or without a name.  Without polygons each triangle is one. */
+/* Whether every frame with rows of the element has the column, or may lack it: zeros, NaN or no name stand
+ * for it.  Without polygons each triangle is one. */
 static bool
 all_have(const joined *j)
 {
@@ -237,7 +237,7 @@ frames_with(const joined *j, const char *layer)
 	return n;
 }
 
-/* What is of all points of its layer together. */
+/* Whether the column describes all points of its layer together. */
 static bool
 is_of_all_rows(const joined *j)
 {

@@ -52,7 +52,7 @@ renumber_fields(unpacked *u, const mr_control_order *order, const uint8_t *creas
 	return MR_OK;
 }
 
-/* Of all half-edges, from the first ones of faces. */
+/* Expands the first half-edge of each face to all three. */
 static const uint32_t *
 all_halves(mr_ctx *ctx, const uint32_t *first, size_t nf)
 {

@@ -30,7 +30,7 @@ async function unpack(file, [vertex, half], crease, heights) {
 	return all;
 }
 
-/* Of films, frames may have the same one. */
+/* Frames of a film may share a packed surface. */
 const known = new Map();
 
 /* Gives a frame the columns of its packed surface, if it has one. */
