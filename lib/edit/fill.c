@@ -641,12 +641,33 @@ leave_islands(filler *w, const bool *bad)
 	return any;
 }
 
+/* Spans the holes, without islands where the triangles with them cross anything. */
+static mr_status
+span_holes(filler *w, bool *bad, mr_patches *out)
+{
+	bool islands = false;
+
+	do {
+		list_rims(w);
+		look_around(w);
+		MR_TRY(span_loops(w));
+		islands = false;
+		for (size_t l = 0; l < w->n; l++)
+			islands |= w->next[w->hole[l].loop] != MR_NONE;
+		memset(bad, 0, w->n * sizeof *bad);
+		if (islands) {
+			gather(w, bad, out);
+			find_crossings(w, out, bad, MR_NEW(w->ctx, w->d.nv, bool));
+		}
+	} while (leave_islands(w, bad));
+	memset(bad, 0, w->n * sizeof *bad);
+	return MR_OK;
+}
+
 static mr_status
 fill_holes(filler *w, bool *bad, mr_patches *out)
 {
-	list_rims(w);
-	look_around(w);
-	MR_TRY(span_loops(w));
+	MR_TRY(span_holes(w, bad, out));
 	MR_TRY(refine(w));
 	MR_TRY(fair(w, 1, 0, w->n));
 	for (int i = 0; i < 2 && w->o->order > 1; i++) {
@@ -654,10 +675,7 @@ fill_holes(filler *w, bool *bad, mr_patches *out)
 		MR_TRY(fair(w, w->o->order, 0, w->n));
 	}
 	MR_TRY(settle(w, bad, out));
-	if (!leave_islands(w, bad))
-		return MR_OK;
-	memset(bad, 0, w->n * sizeof *bad);
-	return fill_holes(w, bad, out);
+	return leave_islands(w, bad) ? fill_holes(w, bad, out) : MR_OK;
 }
 
 mr_status

@@ -22,27 +22,17 @@ rows_of(const mr_frame *f, const char *layer, char element)
 	return 0;
 }
 
-/* A file's own numbers, and texture coordinates of corners, are NaN where there are none. */
-static bool
-may_be_nan(const joined *j)
-{
-	return !strcmp(j->name, "corner_texcoord") ||
-	       (j->first->shape.type == 'd' && !mr_column_known(j->layer, j->name));
-}
-
-/* Whether every frame with rows of the element has the column, or may lack it: zeros, NaN or no name stand
- * for it.  Without polygons each triangle is one. */
+/* Whether every frame with rows of the element has the column in the same shape, or something stands for it.
+ */
 static bool
 all_have(const joined *j)
 {
-	static const char *const names[] = { "polygon", "crease", "smoothing", "detail_offset",
-		"corner_normal", NULL };
-	bool optional = mr_is_one_of(j->name, names) || mr_names_of(j->name) || may_be_nan(j);
+	bool needed = mr_column_missing(j->first) == MR_NEEDED;
 
 	for (size_t i = 0; i < j->n; i++) {
 		const mr_column *c = mr_frame_find(j->frames[i], j->layer, j->name);
 		if (c ? !mr_same_shape(c->shape, j->first->shape)
-		      : !optional && rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
+		      : needed && rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
 			return false;
 	}
 	return true;
@@ -182,26 +172,32 @@ follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, following 
 	return strcmp(j->name, "polygon") ? MR_OK : follow_rows(ctx, j, x, n, n, w);
 }
 
+/* What stands for n rows that a frame lacks. */
+static void
+stand_in(const joined *j, void *x, size_t n)
+{
+	size_t values = n * j->first->shape.components;
+	mr_missing as = mr_column_missing(j->first);
+
+	memset(x, as == MR_WHITE ? 255 : 0, values * mr_type_size(j->first->shape.type));
+	for (size_t i = 0; as == MR_NAN && i < values; i++)
+		((double *)x)[i] = (double)NAN;
+	for (size_t i = 0; as == MR_COUNTED && i < n; i++)
+		((uint32_t *)x)[i] = (uint32_t)i;
+}
+
 /* The rows of frame i to x; *n: how many. */
 static mr_status
-copy_rows(mr_ctx *ctx, const joined *j, size_t i, char *x, size_t *n)
+copy_rows(mr_ctx *ctx, const joined *j, size_t i, void *x, size_t *n)
 {
-	size_t width = mr_type_size(j->first->shape.type) * j->first->shape.components;
-	uint32_t *polygon = (uint32_t *)(void *)x;
 	const void *rows;
 
 	if (mr_layer_has(j->frames[i], j->layer, j->name)) {
 		MR_TRY(mr_frame_get(ctx, j->frames[i], j->layer, j->name, j->first->shape, &rows, n));
-		memcpy(x, rows, *n * width);
-	} else if (!strcmp(j->name, "polygon")) {
-		*n = rows_of(j->frames[i], j->layer, 'f');
-		for (size_t k = 0; k < *n; k++)
-			polygon[k] = (uint32_t)k;
+		memcpy(x, rows, *n * mr_type_size(j->first->shape.type) * j->first->shape.components);
 	} else {
 		*n = rows_of(j->frames[i], j->layer, j->first->shape.element);
-		memset(x, 0, *n * width);
-		for (size_t k = 0; may_be_nan(j) && k < *n * j->first->shape.components; k++)
-			((double *)(void *)x)[k] = (double)NAN;
+		stand_in(j, x, *n);
 	}
 	return MR_OK;
 }
@@ -283,8 +279,46 @@ came_before(const joined *j, size_t i, const char *name)
 }
 
 static mr_status
+put_at_corners(mr_ctx *ctx, mr_frame *f, const char *layer)
+{
+	const void *from, *corner;
+	size_t nv, nf;
+	double *to;
+
+	MR_TRY(mr_layer_get(ctx, f, layer, "texcoord", &from, &nv));
+	MR_TRY(mr_layer_get(ctx, f, layer, "triangles", &corner, &nf));
+	to = MR_NEW(ctx, 6 * nf, double);
+	for (size_t c = 0; c < 3 * nf; c++) {
+		uint32_t v = ((const uint32_t *)corner)[c];
+		if (v >= nv)
+			return mr_fail(ctx, MR_ERANGE, "%s: triangles go beyond %zu vertices", layer, nv);
+		memcpy(to + 2 * c, (const double *)from + 2 * v, 2 * sizeof *to);
+	}
+	mr_frame_drop(f, layer, "texcoord", 0);
+	return mr_layer_put(ctx, f, layer, "corner_texcoord", to, nf);
+}
+
+/* Where one frame has texture coordinates of corners, all have them there. */
+static mr_status
+join_texcoords(mr_ctx *ctx, const joined *j)
+{
+	bool corners = false;
+
+	for (size_t i = 0; i < j->n; i++)
+		corners |= mr_layer_has(j->frames[i], j->layer, "corner_texcoord");
+	for (size_t i = 0; corners && i < j->n; i++) {
+		mr_frame *f = j->frames[i];
+		if (mr_layer_has(f, j->layer, "texcoord") && mr_layer_has(f, j->layer, "triangles") &&
+		    !mr_layer_has(f, j->layer, "corner_texcoord"))
+			MR_TRY(put_at_corners(ctx, f, j->layer));
+	}
+	return MR_OK;
+}
+
+static mr_status
 join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 {
+	MR_TRY(join_texcoords(ctx, j));
 	for (size_t i = 0; i < j->n; i++)
 		for (size_t k = 0; k < j->frames[i]->count; k++) {
 			const mr_column *c = &j->frames[i]->columns[k];

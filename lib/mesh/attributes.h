@@ -16,10 +16,20 @@ typedef enum mr_attribute {
 	MR_LEAST      /* the least of those with a weight */
 } mr_attribute;
 
+/* What stands in the rows of a surface that lacks the column, beside one that has it. */
+typedef enum mr_missing {
+	MR_NEEDED, /* nothing can: the column is lost */
+	MR_ZERO,   /* for labels with a list, the first name */
+	MR_NAN,
+	MR_WHITE,  /* opaque */
+	MR_COUNTED /* the row's own number */
+} mr_missing;
+
 typedef struct mr_column_info {
 	const char *layer, *name; /* layer NULL: any */
 	mr_shape shape;           /* components 0: any number */
 	mr_attribute kind;
+	mr_missing missing;
 	const char *refers; /* the layer with whose triangles it goes stale; NULL: none */
 	const char *what;
 } mr_column_info;
@@ -29,6 +39,9 @@ extern const mr_column_info mr_columns[];
 
 /* The one of this name, or NULL. */
 const mr_column_info *mr_column_of(const char *layer, const char *name);
+
+/* By the table; numbers of others are NaN. */
+mr_missing mr_column_missing(const mr_column *c);
 
 /* Whether a column of this name is one by convention. */
 bool mr_column_known(const char *layer, const char *name);
