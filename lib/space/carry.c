@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "mesh/mend.h"
 #include "mesh/repair.h"
+#include "space/bvh.h"
 #include "space/surface_walk.h"
 
 /* Texture coordinates that differ by less are the same: pictures have up to 16,384 texels a side. */
@@ -131,18 +132,23 @@ place_corners(void *arg, size_t begin, size_t end)
 		j->at[c] = mr_project_walk(&j->cut, &j->topo, j->face[c / 3], m->p[m->t[c / 3].v[c % 3]]);
 }
 
+static mr_v3
+middle_of(const mr_mesh *m, size_t f)
+{
+	mr_v3 p[3];
+
+	mr_corners(m, f, p);
+	return mr_mul(1.0 / 3, mr_add(p[0], mr_add(p[1], p[2])));
+}
+
 static void
 place_faces(void *arg, size_t begin, size_t end)
 {
 	const corner_job *j = arg;
-	mr_v3 p[3];
 
-	for (size_t f = begin; f < end; f++) {
-		mr_corners(j->s->after, f, p);
-		j->face[f] = mr_project_walk(
-		    &j->cut, &j->topo, j->face[f], mr_mul(1.0 / 3, mr_add(p[0], mr_add(p[1], p[2]))))
-		                 .at.face;
-	}
+	for (size_t f = begin; f < end; f++)
+		j->face[f] =
+		    mr_project_walk(&j->cut, &j->topo, j->face[f], middle_of(j->s->after, f)).at.face;
 }
 
 /* A face of before on the side of face f: of a corner off the seams, of a seam, or that of a neighbour;
@@ -345,4 +351,57 @@ mr_carry_columns(mr_ctx *ctx, mr_frame *f, const mr_successor *s, mr_carried **l
 
 	return mr_columns_descend(
 	    ctx, f, m->name, &(mr_descent){ m->nv, m->nf, n->nv, n->nf, BUT, make, &made }, list, count);
+}
+
+typedef struct nearest_job {
+	const mr_bvh *bvh;
+	const mr_mesh *m;
+	uint32_t *vertex_face, *face;
+	mr_v3 *bary;
+} nearest_job;
+
+static void
+place_vertices(void *arg, size_t begin, size_t end)
+{
+	const nearest_job *j = arg;
+
+	for (size_t v = begin; v < end; v++) {
+		mr_place at = mr_bvh_closest(j->bvh, j->m->p[v]).at;
+		j->vertex_face[v] = at.face;
+		j->bary[v] = at.bary;
+	}
+}
+
+static void
+place_middles(void *arg, size_t begin, size_t end)
+{
+	const nearest_job *j = arg;
+
+	for (size_t f = begin; f < end; f++)
+		j->face[f] = mr_bvh_closest(j->bvh, middle_of(j->m, f)).at.face;
+}
+
+mr_status
+mr_carry_nearest(
+    mr_ctx *ctx, mr_frame *f, const mr_mesh *before, const mr_mesh *after, mr_carried **list, size_t *count)
+{
+	enum { GRAIN = 256 };
+	nearest_job j = { .m = after };
+	mr_successor s = { .before = before, .after = after };
+	mr_bvh *bvh;
+	uint8_t *seam;
+
+	MR_TRY(mr_layer_seams(ctx, f, before, &seam));
+	s.seam = seam;
+
+	mr_bvh_build(ctx, before, &bvh);
+	j.bvh = bvh;
+	j.vertex_face = MR_NEW(ctx, after->nv, uint32_t);
+	j.bary = MR_NEW(ctx, after->nv, mr_v3);
+	j.face = MR_NEW(ctx, after->nf, uint32_t);
+	mr_parallel(ctx, after->nv, GRAIN, place_vertices, &j);
+	mr_parallel(ctx, after->nf, GRAIN, place_middles, &j);
+	s.face = j.face;
+	s.place = (mr_places){ j.vertex_face, j.bary };
+	return mr_carry_columns(ctx, f, &s, list, count);
 }

@@ -40,4 +40,8 @@ bool mr_layer_carries(const mr_frame *f, const char *layer);
 mr_status mr_carry_columns(
     mr_ctx *ctx, mr_frame *f, const mr_successor *s, mr_carried **list, size_t *count) MR_WARN_UNUSED;
 
+/* The same, each vertex and face of after from the place of before that is nearest to it or to its middle. */
+mr_status mr_carry_nearest(mr_ctx *ctx, mr_frame *f, const mr_mesh *before, const mr_mesh *after,
+    mr_carried **list, size_t *count) MR_WARN_UNUSED;
+
 #endif

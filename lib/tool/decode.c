@@ -3,6 +3,7 @@
 #include "base/options.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
+#include "space/carry.h"
 #include "tool/cache.h"
 
 /* The normals of base where it was encoded. */
@@ -74,6 +75,28 @@ drop_columns(mr_frame *f)
 	}
 }
 
+/* Puts the surface in the place of the mesh that the control mesh was made of, and what the mesh knows on it;
+ * not once the control mesh has moved. */
+static mr_status
+replace_mesh(mr_ctx *ctx, mr_frame *f, const mr_mesh *out)
+{
+	mr_carried *carried;
+	mr_topology topo;
+	mr_mesh m;
+	bool in_place;
+	size_t n = 0;
+
+	MR_TRY(mr_layer_is_as_encoded(ctx, f, "control", &in_place));
+	if (in_place && mr_layer_has(f, "mesh", "triangles") && mr_layer_carries(f, "mesh")) {
+		MR_TRY(mr_layer_mesh(ctx, f, "mesh", &m));
+		if ((m.nf != out->nf || memcmp(m.t, out->t, m.nf * sizeof *m.t) != 0) &&
+		    mr_topology_build(ctx, &m, &topo) == MR_OK)
+			MR_TRY(mr_carry_nearest(ctx, f, &m, out, &carried, &n));
+	}
+	MR_TRY(mr_layer_replace(ctx, f, "mesh", out));
+	return n > 0 ? mr_carried_put(ctx, f, "mesh", carried, n) : MR_OK;
+}
+
 /* Level J of the surface needs the first heights alone. */
 static mr_status
 decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
@@ -99,7 +122,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	mr_domain_displace(ctx, &d, height, o->gain, p);
 	d.m.p = p;
 	drop_columns(f);
-	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));
+	MR_TRY(replace_mesh(ctx, f, &d.m));
 	MR_TRY(mr_layer_followed(ctx, f, "control"));
 	MR_TRY(mr_layer_followed(ctx, f, "displacement"));
 	return put_columns(ctx, f, d.m.nv);

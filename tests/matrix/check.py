@@ -12,6 +12,7 @@ import zlib
 
 import mrstream
 import numpy as np
+import paint
 
 
 class Broken(Exception):
@@ -208,6 +209,32 @@ def first_rows(before, after):
         for name in ("position", "triangles"):
             rows = old["mesh"][name]
             must(np.array_equal(rows, new["mesh"][name][:len(rows)]), f"other {name}")
+
+
+def carried(layer, most, kept_whole=True):
+    """What paint.py put on the mesh is on that layer; of a thousand faces or more, no further from what it is there than
+    `most`, on the mean; and by area there are as many of each material."""
+    def promise(before, after):
+        for old, new in zip(before, after):
+            if "mesh" not in old or "heat" not in old["mesh"]:
+                continue
+            q, t, found = paint.share(old["mesh"]["position"], new[layer]["position"]), new[layer]["triangles"], new[layer]
+            for name, right in (("color", q), ("heat", q[:, 2]), ("corner_texcoord", q[t][:, :, :2].reshape(-1, 6))):
+                must(name in found, f"{name} is lost")
+                rows = {"color": found["color"][:, :3] / 255, "heat": 3 * found["heat"]}.get(name, found[name])
+                off = np.abs(rows - right).mean() if len(t) and faces(old, "mesh") >= 1000 else 0
+                must(off <= most, f"{name} is {100 * off:.1f} % off")
+            must("material" in found and found["materials"] == old["mesh"]["materials"], "materials are lost")
+            if kept_whole and len(t) and faces(old, "mesh") >= 1000:
+                off = abs(mean_of_labels(found) - mean_of_labels(old["mesh"]))
+                must(off <= max(2 * most, 0.1), f"materials are {off:.2f} off, of 0 to 2")
+    return promise
+
+
+def mean_of_labels(layer):
+    a, b, c = layer["position"][layer["triangles"].T]
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return (area * layer["material"]).sum() / area.sum() if area.any() else 1
 
 
 def parts(before, after):

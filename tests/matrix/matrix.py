@@ -90,10 +90,17 @@ JOBS = [
     ("sample", "fit", "mr-sample", c.heights),
     ("robust", "fit", "mr-sample -m robust", c.heights),
     ("surface", "sample", "mr-decode", c.heights),
+    ("paint", "import", f"PYTHONPATH='{TOP}/examples' {sys.executable} -B '{TOP}/tests/matrix/paint.py'", c.anything),
+    ("paint-crop", "paint", "mr-crop --keep above:y,0.5", c.carried("mesh", 0.01, False)),
+    ("paint-fill", "paint", "mr-fill", c.carried("mesh", 0.05, False)),
+    ("paint-subdivide", "paint", "mr-subdivide -n 1", c.carried("mesh", 0.05)),
+    ("paint-remesh", "paint", "mr-remesh", c.carried("base", 0.02)),
+    ("paint-simplify", "paint", "mr-simplify", c.carried("mesh", 0.1)),
+    ("paint-decode", "paint", "mr-simplify --to control | mr-fit | mr-sample | mr-decode", c.carried("mesh", 0.05)),
 ]
 
 SECOND = {"repair", "cat", "off", "glb", "xyz", "split-cloud", "taubin", "adaptive", "flatten", "arap", "multigrid", "longest",
-          "fit-mesh", "fit-local", "robust", "coarse-creases", "choose", "remesh-rough"}
+          "fit-mesh", "fit-local", "robust", "coarse-creases", "choose", "remesh-rough", "paint-crop", "paint-subdivide"}
 BETWEEN = tuple(f"size-1e{e}.obj" for e in (-200, -29, -12, 12, 29, 200))
 
 
