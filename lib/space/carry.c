@@ -219,6 +219,18 @@ cut_seams(mr_ctx *ctx, const mr_mesh *m, const uint8_t *seam, mr_mesh *cut, mr_t
 	return mr_topology_build(ctx, cut, topo);
 }
 
+/* Whether a place is at the end of its side. */
+static bool
+is_at_rim(const corner_job *j, mr_place at)
+{
+	const double bary[3] = { at.bary.x, at.bary.y, at.bary.z };
+
+	for (uint32_t k = 0; k < 3; k++)
+		if (bary[k] == 0 && j->topo.twin[3 * at.face + (k + 1) % 3] == MR_NONE)
+			return true;
+	return false;
+}
+
 /* The place of corner c: its own, which is on its side; but a walk may end before the nearest place, and then
  * that of another corner of the side, or of the vertex where no seam is. */
 static mr_place
@@ -230,6 +242,8 @@ choose(const corner_job *j, uint32_t c, uint32_t best)
 	double far = mr_dist(mr_place_point(j->s->before, at), j->s->after->p[v]);
 	double none = rounding * mr_dist(j->s->after->p[v], j->s->after->p[mr_he_to(j->s->after, c)]);
 
+	if (j->s->face && !j->s->seam_after && is_at_rim(j, j->at[c].at))
+		return j->at[c].at;
 	if (j->sides[v] > 1 || sqrt(j->at[best].dist2) <= little * far) {
 		at = j->at[best].at;
 		far = sqrt(j->at[best].dist2);

@@ -126,5 +126,6 @@ mr-make sphere -n 100 | mr-cat --merge - torus.mrs | mr-decode >out.mrs
 
 echo 'a surface in the place of its mesh has what the mesh knows, while control has not moved'
 mr-make bumpy --texcoords -n 2000 | mr-simplify --to control | mr-fit | mr-sample -o textured.mrs
+mr-select --reset --fixed below:y,0.5 --handle 0=above:y,0.5 -l control textured.mrs |
+	mr-pose --translate 0,1,0 | mr-solve -l control | mr-decode | mr-info | grep -c corner_texcoord
 mr-decode textured.mrs | mr-info | grep corner_texcoord
-mr-select --reset --fixed below:y,0.5 --handle 0=above:y,0.5 -l control textured.mrs | mr-pose --translate 0,1,0 | mr-solve -l control | mr-decode | mr-info | grep -c corner_texcoord
