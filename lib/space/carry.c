@@ -369,10 +369,27 @@ mr_carry_columns(mr_ctx *ctx, mr_frame *f, const mr_successor *s, mr_carried **l
 
 typedef struct nearest_job {
 	const mr_bvh *bvh;
-	const mr_mesh *m;
+	const mr_mesh *before, *after;
+	const mr_v3 *normal; /* of each vertex of after */
 	uint32_t *vertex_face, *face;
 	mr_v3 *bary;
 } nearest_job;
+
+/* The place nearest to p; where that faces away from n, as the far side of a thin wall does, one in front of
+ * it that does not, if there is one. */
+static mr_place
+nearest_place(const nearest_job *j, mr_v3 p, mr_v3 n)
+{
+	mr_closest c = mr_bvh_closest(j->bvh, p), other;
+	double length = mr_norm(n);
+
+	if (mr_dot(mr_face_cross(j->before, c.at.face), n) >= 0)
+		return c.at;
+	other = mr_bvh_closest(j->bvh, mr_axpy(2 * sqrt(c.dist2) / length, n, p));
+	if (mr_dot(mr_face_cross(j->before, other.at.face), n) <= 0)
+		return c.at;
+	return mr_face_closest(j->before, other.at.face, p).at;
+}
 
 static void
 place_vertices(void *arg, size_t begin, size_t end)
@@ -380,7 +397,7 @@ place_vertices(void *arg, size_t begin, size_t end)
 	const nearest_job *j = arg;
 
 	for (size_t v = begin; v < end; v++) {
-		mr_place at = mr_bvh_closest(j->bvh, j->m->p[v]).at;
+		mr_place at = nearest_place(j, j->after->p[v], j->normal[v]);
 		j->vertex_face[v] = at.face;
 		j->bary[v] = at.bary;
 	}
@@ -392,7 +409,7 @@ place_middles(void *arg, size_t begin, size_t end)
 	const nearest_job *j = arg;
 
 	for (size_t f = begin; f < end; f++)
-		j->face[f] = mr_bvh_closest(j->bvh, middle_of(j->m, f)).at.face;
+		j->face[f] = nearest_place(j, middle_of(j->after, f), mr_face_cross(j->after, f)).face;
 }
 
 mr_status
@@ -400,7 +417,8 @@ mr_carry_nearest(
     mr_ctx *ctx, mr_frame *f, const mr_mesh *before, const mr_mesh *after, mr_carried **list, size_t *count)
 {
 	enum { GRAIN = 256 };
-	nearest_job j = { .m = after };
+	nearest_job j = { .before = before, .after = after };
+	mr_v3 *normal = MR_NEW(ctx, after->nv, mr_v3);
 	mr_successor s = { .before = before, .after = after };
 	mr_bvh *bvh;
 	uint8_t *seam;
@@ -410,6 +428,8 @@ mr_carry_nearest(
 
 	mr_bvh_build(ctx, before, &bvh);
 	j.bvh = bvh;
+	mr_vertex_normals(after, normal);
+	j.normal = normal;
 	j.vertex_face = MR_NEW(ctx, after->nv, uint32_t);
 	j.bary = MR_NEW(ctx, after->nv, mr_v3);
 	j.face = MR_NEW(ctx, after->nf, uint32_t);
