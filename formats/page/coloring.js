@@ -2,6 +2,7 @@
  * frame, layers, drawn }: layers that are seen, and what is drawn of each by its name. */
 import { kindOf, kindsOf, paint, rangeOf } from "./draw/column_colors.js";
 import { costumeOf } from "./draw/pictures.js";
+import { posedBy } from "./deform/poser.js";
 import { listColors, showLegend } from "./side.js";
 import { TEXTURE, namesOf } from "./stream/layers.js";
 import { columnOf } from "./stream/stream.js";
@@ -33,7 +34,7 @@ async function paintBy(drawn, column, range) {
 }
 
 /* What layers wear, or their own colours, unless they are all the same: black, where a format has a place for them and
- * no more. */
+ * no more; of what can be posed its regions. */
 async function ownColor(frame, all) {
 	if (all.some(({ layer }) => layer.wears))
 		return TEXTURE;
@@ -43,7 +44,7 @@ async function ownColor(frame, all) {
 		if (values.some((x, i) => x !== values[i % column.components]))
 			return "color";
 	}
-	return "";
+	return posedBy(frame) && !frame.film ? "region" : "";
 }
 
 /* What the colours mean, over all layers that are seen; a range stays until it is chosen anew. */

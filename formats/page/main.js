@@ -51,7 +51,7 @@ function connect(app) {
 		app.stage.up($("up").value);
 		app.fit(view());
 	});
-	onClick($("canvas"), (x, y) => app.painter.tool === "turn" && app.pick(x, y));
+	onClick($("canvas"), (x, y) => app.painter.tool || app.pick(x, y));
 	listen(() => app.forget(), (handle) => app.posing.choose(handle), app.painter);
 }
 

@@ -42,14 +42,17 @@ def pull(b, x0, y0, x1, y1):
 
 
 def gizmo(b):
-    """Moved, turned and scaled by the mouse, one after another: one command, and each of them undone."""
+    """Opens at the first handle, coloured by region; moved, turned and scaled by the mouse, one after another: one
+    command, and each of them undone."""
     values = columns("rest.mrs")
     b.open("rest.html")
     camera, at = Camera(values["mesh", "position"], b.canvas()), centroid(values, 1)
     unit = GIZMO * length(sub(camera.eye, at))
-    check(line(b) == "" and b.eval("document.getElementById('modes').hidden"), "there is a pose before there is one: "
-        + line(b))
-    b.press("1")
+    check(line(b) == "" and b.eval("document.getElementById('poseline').hidden"), "there is a pose before there is "
+        "one: " + line(b))
+    check(b.eval("mrView.posing.handle") == 1 and b.text("hint") == "drag to turn"
+        and b.eval("document.getElementById('color').value") == "region", "it does not open in posing")
+    b.press("m")
 
     def pixel(right, up, along=(0, 0, 0)):
         """A place of the gizmo: so far in the picture, and along the axes of the world."""
@@ -61,6 +64,7 @@ def gizmo(b):
     move = option(b, "--translate")
     check(len(move) == 3 and move[0] > 0.02 and move[1] == move[2] == 0, "moved along x: " + line(b))
     same(b, "rest.mrs", line(b), "moved")
+    check(b.eval("document.getElementById('hint').hidden"), "the hint stays")
     moved, at = line(b), [p + t for p, t in zip(at, move)]
     b.press("t")
     pull(b, *pixel(1.25 * math.cos(0.6), 1.25 * math.sin(0.6)), *pixel(1.25 * math.cos(1.1), 1.25 * math.sin(1.1)))
@@ -97,7 +101,7 @@ def touch(b):
     b.open("rest.html")
     values = columns("rest.mrs")
     camera, at = Camera(values["mesh", "position"], b.canvas()), centroid(values, 1)
-    b.press("1")
+    b.press("m")
     unit = GIZMO * length(sub(camera.eye, at))
     x, y = camera.pixel([at[0], at[1] + 0.7 * unit, at[2]])
     for kind, dy in (("touchStart", 0), ("touchMove", 12), ("touchMove", 24), ("touchEnd", None)):
@@ -105,6 +109,9 @@ def touch(b):
     move = option(b, "--translate")
     check(len(move) == 3 and move[1] < -0.02 and move[0] == move[2] == 0, "moved along y by a finger: " + line(b))
     same(b, "rest.mrs", line(b), "moved by a finger")
+    b.choose("view", "-1,0,0")
+    check(b.eval("mrView.stage.gizmo.controls.children[0].gizmo.translate.children.find(c => c.tag === 'fwd' && c.name "
+        "=== 'Y').visible"), "the y arrow points down")
     b.size(1280, 800)
 
 

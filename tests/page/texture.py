@@ -169,6 +169,7 @@ def pose(b):
         "[mrView.stage.camera.position.toArray().map((x, c) => x + mrView.centre[c]), "
         "mrView.stage.controls.target.toArray().map((x, c) => x + mrView.centre[c])]")
     b.open("pose.html")
+    b.press("Escape")
     rest = stage()
     pose_by(b, line)
     b.eval("((eye, at) => { const { camera, controls } = mrView.stage, c = mrView.centre; "

@@ -20,7 +20,11 @@ export class Posing {
 		const { gizmo } = this.app.stage;
 
 		Object.assign(gizmo, {
-			began: () => this.pose.remember(),
+			began: () => {
+				this.pose.remember();
+				this.dragged = true;
+				this.hint();
+			},
 			moved: (to) => this.drag(to),
 			ended: () => {
 				this.pose.settle();
@@ -28,7 +32,10 @@ export class Posing {
 			},
 		});
 		for (const mode of ["move", "turn", "scale"])
-			$(mode).addEventListener("change", () => gizmo.mode(mode));
+			$(mode).addEventListener("change", () => {
+				gizmo.mode(mode);
+				this.hint();
+			});
 		$("undo").addEventListener("click", () => this.act(() => this.pose.undo()));
 		$("redo").addEventListener("click", () => this.act(() => this.pose.redo()));
 		$("reset").addEventListener("click", () => this.act(() => this.pose.set([])));
@@ -44,12 +51,12 @@ export class Posing {
 		const start = columns && (columnOf(frame, "handles", "transform") || columns.response);
 		if (start !== this.start && this.deformer) {
 			this.pose = await poseOf(frame);
-			this.handle = null;
+			this.handle = this.pose.numbers.length && !frame.film ? this.pose.numbers[0] : null;
 			this.apply();
 		}
 		this.start = start;
 		$("whole").textContent = "mr-cat " + streamOf(frame) + " | … | mr-export posed.ply";
-		$("pose").hidden = $("poseline").hidden = !this.pose || this.pose.numbers.length === 0;
+		$("pose").hidden = !this.pose || this.pose.numbers.length === 0;
 	}
 
 	/* Whether what it was made for is of this frame. */
@@ -157,6 +164,8 @@ export class Posing {
 		const { gizmo } = this.app.stage, there = this.pose && this.handle !== null;
 
 		gizmo.show(there ? this.pose.grip(this.handle) : null, this.centre);
+		this.hint();
+		this.showLine();
 		if (!this.pose)
 			return;
 		$("handles").replaceChildren(...this.pose.numbers.map((h) => this.chip(h)));
@@ -164,7 +173,12 @@ export class Posing {
 		$("undo").disabled = this.pose.past.length === 0;
 		$("redo").disabled = this.pose.future.length === 0;
 		$("reset").disabled = this.pose.line() === "";
-		this.showLine();
+	}
+
+	/* What to do, until it is done for the first time. */
+	hint() {
+		$("hint").hidden = this.dragged || !this.app.stage.gizmo.there;
+		$("hint").textContent = "drag to " + document.querySelector("input[name=mode]:checked").id;
 	}
 
 	chip(handle) {
@@ -178,10 +192,10 @@ export class Posing {
 	}
 
 	showLine() {
-		const degrees = this.pose.degrees(), line = this.pose.line();
+		const degrees = this.pose ? this.pose.degrees() : 0, line = this.pose ? this.pose.line() : "";
 
 		$("line").textContent = line;
-		$("copy").disabled = $("reads").hidden = line === "";
+		$("poseline").hidden = line === "";
 		$("far").hidden = degrees <= FAR * (1 + 1e-9);
 		$("degrees").textContent = degrees.toFixed(0);
 	}

@@ -13,6 +13,22 @@ function logarithm({ x, y, z, w }) {
 	return axis.setLength(2 * Math.atan2(axis.length() / 2, Math.abs(w)));
 }
 
+/* three.js turns arrows and boxes to the eye: here they point along their axes. */
+function straighten(gizmo) {
+	const update = gizmo.updateMatrixWorld;
+
+	gizmo.updateMatrixWorld = function () {
+		const eye = this.eye.clone(), turn = this.worldQuaternion;
+		if (this.mode === "translate")
+			this.eye.set(...eye.toArray().map(Math.abs));
+		else if (this.mode === "scale")
+			this.eye.fromArray(eye.clone().applyQuaternion(turn.clone().inverse()).toArray().map(Math.abs))
+				.applyQuaternion(turn);
+		update.call(this);
+		this.eye.copy(eye);
+	};
+}
+
 export class Gizmo {
 	constructor(stage) {
 		this.stage = stage;
@@ -22,7 +38,9 @@ export class Gizmo {
 			removeEventListener: (...what) => stage.canvas.removeEventListener(...what),
 			getBoundingClientRect: () => stage.place(),
 		});
+		straighten(this.controls.children[0]);
 		this.controls.setSize(SIZE);
+		this.mode("turn");
 		stage.scene.add(this.at, this.controls);
 		this.controls.addEventListener("change", () => stage.ask());
 		this.controls.addEventListener("dragging-changed", ({ value }) => {
@@ -63,6 +81,18 @@ export class Gizmo {
 			this.controls.detach();
 		this.controls.enabled = on;
 		this.stage.ask();
+	}
+
+	get there() {
+		return Boolean(this.grip) && this.controls.enabled;
+	}
+
+	/* Puts a label below the rings. */
+	label({ style }) {
+		const { x, y } = this.at.position.clone().project(this.stage.camera);
+
+		style.left = 50 * (1 + x) + "%";
+		style.top = 50 * (1 - y) + 22 + "%";
 	}
 
 	/* Where it has been dragged: { translate, turn, scale }. */

@@ -124,6 +124,7 @@ export class Stage {
 		for (const [, drawn] of this.layers)
 			drawn.scale(pixels);
 		this.renderer.render(this.scene, this.camera);
+		this.gizmo.label(document.getElementById("hint"));
 	}
 
 	/* The ray through a place of the window, and for points the projection with the place in it; null where that is

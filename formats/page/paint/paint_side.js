@@ -58,7 +58,7 @@ function showButtons(painter) {
 
 /* Brings the side to what is painted, and with what. */
 export function showPaint(painter) {
-	const paints = painter.tool !== "turn";
+	const paints = painter.tool !== null;
 
 	$("paint").hidden = !painter.work;
 	for (const button of document.querySelectorAll("#tools button"))
@@ -75,7 +75,8 @@ export function showPaint(painter) {
 
 export function connectPaint(painter) {
 	for (const button of document.querySelectorAll("#tools button"))
-		button.addEventListener("click", () => painter.choose(button.value));
+		button.addEventListener("click", () =>
+			painter.choose(painter.tool === button.value ? null : button.value));
 	for (const what of ["clear", "fill"])
 		$(what).addEventListener("click", () => painter.edit(what));
 	$("paint-undo").addEventListener("click", () => painter.back(false));
@@ -100,7 +101,7 @@ const KEYS = {
 /* Does what a key is for here; false: nothing.  While no tool paints, those of the tools are all. */
 export function paintKey(painter, key) {
 	const tool = TOOLS[key] && document.querySelector("#tools [value=" + TOOLS[key] + "]");
-	const act = painter.tool !== "turn" && KEYS[key];
+	const act = painter.tool !== null && KEYS[key];
 
 	if (!painter.work || (!act && !(tool && !tool.hidden)))
 		return false;

@@ -28,7 +28,7 @@ export class Painter {
 		this.app = app;
 		this.works = []; /* what was painted, or could be, of models of this page */
 		this.work = null; /* that of the frame: { name, rows, triangles, group, column, regions, painted } */
-		this.tool = "turn";
+		this.tool = null;
 		this.region = HANDLE + 1;
 		this.size = 50;
 		this.strokes = new Strokes(this, app.stage);
@@ -112,15 +112,15 @@ export class Painter {
 	}
 
 	choose(tool) {
-		this.tool = this.work ? tool : "turn";
-		this.strokes.heed(this.tool !== "turn");
+		this.tool = this.work ? tool : null;
+		this.strokes.heed(this.tool !== null);
 		showPaint(this);
-		return this.tool === "turn" ? Promise.resolve() : this.show();
+		return this.tool ? this.show() : Promise.resolve();
 	}
 
 	/* Drops a stroke that is being made; without one, the tool. */
 	leave() {
-		return this.strokes.stroke ? this.strokes.cancel() : this.choose("turn");
+		return this.strokes.stroke ? this.strokes.cancel() : this.choose(null);
 	}
 
 	take(region) {

@@ -42,10 +42,13 @@ function begin(record, frames) {
 	const blank = said.indexOf(" ");
 	const before = said.startsWith("delta") ? frames[frames.length - 1] : null;
 
+	if (before)
+		frames[before.group].film = true;
 	return {
 		name: said.slice(blank + 1),
 		columns: new Map(before ? before.columns : []),
 		group: before ? before.group : frames.length, /* number of the key frame */
+		film: Boolean(before), /* whether it is one of several of a model */
 	};
 }
 
