@@ -1,6 +1,8 @@
 # Packages
 #
 #	make dist         the sources as a tarball, mr-VERSION.tar.gz, in $(BUILD)
+#	make wheel        the Python package, tools and their libraries inside, in $(BUILD)/wheel
+#	make check-wheel  tries it in an environment of its own
 #	make deb          Debian packages of tools, library and headers, by .debian, in $(BUILD)/deb
 #	make check-deb    builds them twice, elsewhere: the same bytes; tries them in a new system; as root
 #	make check-arm64  builds for arm64 and compares what the tools give, under qemu, with these; as root
@@ -16,6 +18,19 @@ dist:
 		--owner=0 --group=0 --numeric-owner \
 		--mode=u+rw,go+rX,go-w,a-s --format=ustar --transform='s,^,$(DIST)/,' -T - && gzip -9nf \
 		$(BUILD)/$(DIST).tar
+
+# Tools that run wherever they are put; the last of their files is the licence.
+PORTABLE := $(BUILD)/portable/share/doc/mr/LICENSE
+$(PORTABLE): $(TOOLS) .ci/portable | setup
+	$(call say,gather )rm -rf $(BUILD)/portable && .ci/portable $(BUILD)/portable $(TOOLS)
+
+wheel: $(PORTABLE) | setup
+	@rm -rf $(BUILD)/wheel && mkdir -p $(BUILD)/wheel
+	@SOURCE_DATE_EPOCH=$(EPOCH) python3 lib/python/build_wheel.py $(VERSION) $(BUILD)/portable . $(BUILD)/wheel
+
+check-wheel: wheel
+	@SOURCE_DATE_EPOCH=$(EPOCH) $(RUN) tests/wheel $(VERSION) '$(abspath $(BUILD))' \
+		'$(abspath $(BUILD))/check-wheel'
 
 # Packages are built from the tarball, in which .debian has the name that Debian asks for.
 deb: dist | setup
@@ -34,4 +49,4 @@ check-deb: dist $(TOOLS) $(BUILD)/$(SONAME) | setup
 check-arm64: $(TOOLS) | setup
 	@$(RUN) tests/arm64 '$(abspath $(BUILD))/arm64'
 
-.PHONY: dist deb check-deb check-arm64
+.PHONY: dist wheel check-wheel deb check-deb check-arm64

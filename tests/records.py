@@ -1,7 +1,7 @@
 """records -- streams (man 5 mr-stream) for the tests, read and written record by record, also such as break a law.
 
 A record is (layer, name, shape, rows, data), its layer and name bytes, its shape element, type and components: b"vd\\3".
-examples/mrstream.py is the reader for everyone else: it checks, and needs numpy.
+lib/python/mr/stream.py is the reader for everyone else: it checks, and needs numpy.
 """
 import struct
 import subprocess

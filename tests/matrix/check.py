@@ -10,7 +10,7 @@ import re
 import struct
 import zlib
 
-import mrstream
+import stream
 import numpy as np
 import paint
 
@@ -35,8 +35,8 @@ INDICES = {"detail_face": "base", "source_face": "mesh"}
 def frames(path):
     """All frames of a stream that keeps the laws of mr-stream(5)."""
     try:
-        return list(mrstream.read(path))
-    except mrstream.StreamError as error:
+        return list(stream.read(path))
+    except stream.StreamError as error:
         raise Broken(f"no stream: {error}") from error
 
 

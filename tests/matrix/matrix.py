@@ -17,7 +17,7 @@ import tempfile
 from multiprocessing import Pool
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(TOP, "examples")]
+sys.path[:0] = [os.path.join(TOP, "lib", "python", "mr")]
 import check as c  # noqa: E402
 import uglies  # noqa: E402
 
@@ -90,7 +90,7 @@ JOBS = [
     ("sample", "fit", "mr-sample", c.heights),
     ("robust", "fit", "mr-sample -m robust", c.heights),
     ("surface", "sample", "mr-decode", c.heights),
-    ("paint", "import", f"PYTHONPATH='{TOP}/examples' {sys.executable} -B '{TOP}/tests/matrix/paint.py'", c.anything),
+    ("paint", "import", f"PYTHONPATH='{TOP}/lib/python/mr' {sys.executable} -B '{TOP}/tests/matrix/paint.py'", c.anything),
     ("paint-crop", "paint", "mr-crop --keep above:y,0.5", c.carried("mesh", 0.01, False)),
     ("paint-fill", "paint", "mr-fill", c.carried("mesh", 0.05, False)),
     ("paint-subdivide", "paint", "mr-subdivide -n 1", c.carried("mesh", 0.05)),

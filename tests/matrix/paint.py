@@ -4,7 +4,7 @@ Means are linear in the positions: they are exact on every surface that is inter
 """
 import sys
 
-import mrstream
+import stream
 import numpy as np
 
 
@@ -30,4 +30,4 @@ def painted(frames):
 
 
 if __name__ == "__main__":
-    mrstream.write("-", painted(mrstream.read("-")))
+    stream.write("-", painted(stream.read("-")))

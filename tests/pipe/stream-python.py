@@ -1,9 +1,9 @@
-# What stream-python.sh asks of examples/mrstream.py from within: values, copies, damage, laws, deltas, files.
+# What stream-python.sh asks of mr.stream from within: values, copies, damage, laws, deltas, files.
 import glob, gzip, io, mmap, os, struct, subprocess, sys, tracemalloc, zlib
 
 import numpy as np
 
-import mrstream
+from mr import stream as mrstream
 import page  # the program in mr-stream(5), which knows no numpy
 
 failed = 0

@@ -1,11 +1,12 @@
-# examples/mrstream.py: what the tools write it reads, and what it writes they read; damage never comes out as data.
+# mr.stream of lib/python: what the tools write it reads, and what it writes they read; damage never comes out as data.
 for python in python3 /usr/bin/python3; do
 	$python -c 'import numpy' 2>/dev/null && break
 	python=
 done
 [ -n "$python" ] || { echo 'no Python with numpy'; exit 77; }
-PYTHONPATH=$TOP/examples:. PYTHONDONTWRITEBYTECODE=1
+PYTHONPATH=$TOP/tests:. PYTHONDONTWRITEBYTECODE=1
 export PYTHONPATH PYTHONDONTWRITEBYTECODE
+mkdir mr && cp "$TOP/lib/python/mr/stream.py" mr || exit
 fail=0
 bad() {
 	echo "$*"
@@ -30,18 +31,18 @@ sed -n '/^\.\\" begin mrstream.py$/,/^\.\\" end$/p' "$TOP/man/mr-stream.5" | gre
 $python "$TOP/tests/pipe/stream-python.py" || fail=1
 
 # From pipe to pipe it passes what mr-cat passes; the tools find nothing to blame.
-echo 'import mrstream; mrstream.write("-", mrstream.read(), history=None)' >pass.py
+echo 'from mr import stream; stream.write("-", stream.read(), history=None)' >pass.py
 mr-cat --no-history all.mrs >want
 $python pass.py <all.mrs | cmp - want || bad 'a file passes otherwise'
 cat all.mrs | $python pass.py | cat >got && cmp want got || bad 'a pipe passes otherwise'
 mr-info --check --no-intersections <got >/dev/null || bad 'what passes breaks a law'
 
 # The filter of its first page: positions to the last bit, deltas stay deltas, one line of history more.
-sed -n '/^    import sys$/,/^    mrstream.write/s/^    //p' "$TOP/examples/mrstream.py" >scale.py
+sed -n '/^    import sys$/,/^    stream.write/s/^    //p' "mr/stream.py" >scale.py
 for file in z walkz; do
 	$python scale.py 2 <$file.mrs | $python scale.py 0.5 >twice.mrs || bad "$file: scale.py fails"
 	mr-cat -u --no-history $file.mrs | $python pass.py >want
-	mr-info twice.mrs | grep -q "mrstream 1.0: scale.py 0.5" || bad "$file: no line of history"
+	mr-info twice.mrs | grep -q "mr.stream 1.0: scale.py 0.5" || bad "$file: no line of history"
 	for way in want twice.mrs; do
 		mr-export "$way-%d.obj" -i $way && cat $way-*.obj >$way.obj
 	done
@@ -50,16 +51,10 @@ done
 [ "$(wc -c <twice.mrs)" -le "$(mr-cat -u walkz.mrs | wc -c)" ] || bad 'deltas are sent whole'
 mr-make torus -n 900 | $python scale.py 3 | mr-export out.ply && [ -s out.ply ] || bad 'no pipe with scale.py'
 (mr-make torus -n 900 | head -c 9000 | $python scale.py 3) 2>err | mr-cat >/dev/null 2>&1 && bad 'a dead stage is not seen'
-grep -q 'mrstream.CutOff: stream ends without END at byte 9000: the previous tool failed' err || bad "cut off: $(cat err)"
+grep -q 'mr.stream.CutOff: stream ends without END at byte 9000: the previous tool failed' err || bad "cut off: $(cat err)"
 
 # Its other example: a key, and a delta that is the smaller by the triangles and the history.
-{ echo 'import mrstream'; sed -n '/^    frame = mrstream.Frame/,/^$/s/^    //p' "$TOP/examples/mrstream.py"; } >make.py
+{ echo 'from mr import stream'; sed -n '/^    frame = stream.Frame/,/^$/s/^    //p' "mr/stream.py"; } >make.py
 $python make.py && mr-info --check x.mrs >list || bad 'the example from nothing'
 [ "$(grep -c '^triangle: frame ' list)" -eq 2 ] && [ "$(wc -c <x.mrs)" -eq $((64 * (11 + 6 + 1))) ] || bad "from nothing: $(cat list)"
-
-# As a command it lists.
-$python -m mrstream walkz.mrs >list || bad 'no list'
-[ "$(grep -c ': frame ' list)" -eq 5 ] && grep -q '^  mesh  *detail_bary  *v d3 ' list || bad "listed: $(cat list)"
-head -c 1000 a.mrs | $python "$TOP/examples/mrstream.py" >list 2>err && bad 'a stream cut off is listed'
-[ "$(cat err)" = 'mrstream: stream ends without END at byte 1000: the previous tool failed' ] || bad "list: $(cat err)"
 exit $fail

@@ -1,7 +1,6 @@
-#!/usr/bin/env python3
-"""mrstream -- read and write streams of meshes (man 5 mr-stream) with numpy.
+"""Streams of meshes (man 5 mr-stream), read and written with numpy alone; a copy of this file works by itself, too.
 
-    for frame in mrstream.read("x.mrs"):            # a path, "-" (standard input) or a binary file
+    for frame in stream.read("x.mrs"):            # a path, "-" (standard input) or a binary file
         p = frame["mesh"]["position"]               # (vertices, 3), float64
         t = frame["mesh"]["triangles"]              # (faces, 3), uint32
         print(frame.name, frame.key, list(frame), list(frame["mesh"]), frame.history)
@@ -9,7 +8,7 @@
 A filter, for `mr-import x.obj | python3 scale.py 2.5 | mr-export y.obj`:
 
     import sys
-    import mrstream
+    from mr import stream
 
     def scaled(frames, factor):
         for frame in frames:
@@ -18,14 +17,14 @@ A filter, for `mr-import x.obj | python3 scale.py 2.5 | mr-export y.obj`:
                     frame[layer]["position"] = factor * frame[layer]["position"]
             yield frame
 
-    mrstream.write("-", scaled(mrstream.read("-"), float(sys.argv[1])))
+    stream.write("-", scaled(stream.read("-"), float(sys.argv[1])))
 
 From nothing, a key frame, and a delta that sends its positions alone:
 
-    frame = mrstream.Frame("triangle")
+    frame = stream.Frame("triangle")
     frame.put("mesh", "position", [[0, 0, 0.0], [1, 0, 0], [0, 1, 0]], "v")
     frame.put("mesh", "triangles", [[0, 1, 2]], "f")
-    with mrstream.writer("x.mrs") as out:
+    with stream.writer("x.mrs") as out:
         out.put(frame)
         frame.key = False
         frame["mesh"]["position"] = 2 * frame["mesh"]["position"]
@@ -42,7 +41,7 @@ as it came, byte for byte; a line is added to the history.
 
 The laws of the format are checked, and the checksums of a frame before it is given, also of columns that nobody uses:
 StreamError, and CutOff where END is missing; so read to the end to know that the tool before succeeded.  END is written
-unless an exception ends the block of writer(), or the frames of write().  `python3 mrstream.py [FILE]` lists frames.
+unless an exception ends the block of writer(), or the frames of write().
 """
 import contextlib
 import io
@@ -50,7 +49,6 @@ import mmap
 import os
 import re
 import shlex
-import signal
 import stat
 import struct
 import sys
@@ -67,12 +65,39 @@ BLOCK = 32768  # rows that are packed together
 CHUNK = 1 << 20  # bytes asked of a pipe at first: no header gets memory for what has not arrived
 
 
-class StreamError(ValueError):
+class Error(Exception):
+    """What was asked for failed; its text is one sentence."""
+
+
+class StreamError(Error, ValueError):
     """A stream, or a frame to be written, breaks a law of mr-stream(5)."""
 
 
 class CutOff(StreamError):
     """A stream ends without END: the tool that wrote it failed."""
+
+
+class Finding(UserWarning):
+    """What a tool reports of a result that it gives all the same (man 7 mr-findings); what is not known is None.
+
+    tool, kind, layer; count, of (how many, of how many); value, limit; vertex, at (the worst place); what (words).
+    """
+
+    def __init__(self, sentence, tool=None, kind=None, layer=None, count=None, of=None, value=None, limit=None,
+                 vertex=None, at=None, what=None):
+        super().__init__(sentence)
+        self.tool, self.kind, self.layer, self.count, self.of = tool, kind, layer, count, of
+        self.value, self.limit, self.vertex, self.at, self.what = value, limit, vertex, at, what
+
+    @classmethod
+    def of_line(cls, line):
+        """From a line of the column findings."""
+        tool, kind, layer, count, of, value, limit, vertex, *at, what = line.split("\t")
+        count, of, value, limit = int(count), int(of), float(value), float(limit)
+        words = what or (f"{count} of {of}" if of else f"{count or value:.3g}")
+        return cls(f"{tool}: {layer}{layer and ': '}{words} [{kind}]", tool, kind, layer or None, count or None,
+                   of or None, value or None, limit or None, int(vertex) if vertex else None,
+                   tuple(map(float, at)) if at[0] else None, what or None)
 
 
 class Column:
@@ -187,6 +212,8 @@ class Frame:
     """Its name; key (False: a delta); columns, {(layer, name): Column} in order; and its layers by name."""
 
     def __init__(self, name, key=True, columns=()):
+        if not isinstance(name, str):
+            raise StreamError(f"a frame cannot be called {name!r}")
         self.name, self.key, self.columns = name, key, dict(columns)
 
     def __iter__(self):
@@ -206,8 +233,23 @@ class Frame:
         """A line for each tool that the frame has been through."""
         return self.columns["", "history"].values if ("", "history") in self.columns else ""
 
+    @property
+    def findings(self):
+        """What the tools found poor in it: a list of Finding."""
+        lines = self.columns["", "findings"].values if ("", "findings") in self.columns else ""
+        return [Finding.of_line(line) for line in lines.splitlines() if line.count("\t") == 11]
+
+    def __repr__(self):
+        layers = []
+        for layer in filter(None, self):
+            rows = {c.element: c.rows for c in self.columns.values() if c.layer == layer}
+            layers.append(f"{layer} ({rows.get('v', 0)} vertices, {rows.get('f', 0)} faces)")
+        return f"<mr.Frame {self.name!r}: {', '.join(layers) or 'empty'}>"
+
     def put(self, layer, name, values, element=None):
         """Puts text, or rows of numbers: of vertices (element "v"), faces ("f") or neither ("-")."""
+        if not all(isinstance(text, str) for text in (layer, name, element or "")):
+            raise StreamError(f"{layer}.{name}: layer, column and element are text")
         old = self.columns.get((layer, name))
         kind, components, payload, rows = _encoded(f"{layer}.{name}", values, old.type if old else None)
         if name in KINDS or "\0" in layer + name:
@@ -232,6 +274,21 @@ class Frame:
             raise StreamError(f"{self.name}: {len(self.columns)} columns of 4096")
 
 
+def mesh(positions, triangles=None, name="mesh"):
+    """A frame of the layer mesh, or of points where there are no triangles: arrays of three numbers a row."""
+    frame, layer = Frame(name), "points" if triangles is None else "mesh"
+    columns = [("position", "v", positions, "fiu", np.float64), ("triangles", "f", triangles, "iu", np.uint32)]
+    for column, element, values, kinds, dtype in columns[:1 if triangles is None else 2]:
+        rows = np.asarray(values)
+        if rows.dtype.kind not in kinds or rows.ndim != 2 or rows.shape[1] != 3:
+            raise StreamError(f"{layer}.{column}: {rows.dtype} of shape {rows.shape} is not rows of three numbers")
+        stored = rows.astype(dtype)
+        if not (np.isfinite(stored).all() if element == "v" else np.array_equal(stored, rows)):
+            raise StreamError(f"{layer}.{column}: a number is not finite, or no index")
+        frame.put(layer, column, stored, element)
+    return frame
+
+
 def _encoded(where, values, kind):
     """Type, components, bytes and rows of values.  kind: the type of the column that they replace."""
     if isinstance(values, str):
@@ -246,7 +303,10 @@ def _encoded(where, values, kind):
         stored = values.astype(TYPES[kind], copy=False)
     if kind != "d" and not np.array_equal(stored, values):
         raise StreamError(f"{where}: values that type {kind} does not hold")
-    return kind, values.shape[1] if values.ndim == 2 else 1, stored.tobytes(), len(values)
+    try:
+        return kind, values.shape[1] if values.ndim == 2 else 1, stored.tobytes(), len(values)
+    except MemoryError:
+        raise MemoryError(f"{where}: no memory for {values.dtype} of shape {values.shape}") from None
 
 
 def _frame_name(name):
@@ -350,7 +410,7 @@ class Writer:
     def __init__(self, file, history=True):
         """history: the line that is added to each frame's; True: the command line; None: none."""
         command = [os.path.basename(sys.argv[0]) or "python3", *sys.argv[1:]]
-        line = f"mrstream 1.0: {shlex.join(command)}" if history is True else history
+        line = f"mr.stream 1.0: {shlex.join(command)}" if history is True else history
         self.line = line and re.sub("[\0-\x1f\x7f-\x9f\ud800-\udfff]", "?", line) + "\n"
         self.file, self.sent, self.started = file, None, False
 
@@ -435,19 +495,3 @@ def write(file, frames, history=True):
     with writer(file, history) as out:
         for frame in frames:
             out.put(frame)
-
-
-def main():
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
-    try:
-        for number, frame in enumerate(read(*sys.argv[1:2]), 1):
-            print(f"{frame.name}: frame {number}, {'key' if frame.key else 'delta'}")
-            for c in frame.columns.values():
-                print(f"  {c.layer:16} {c.name:24} {c.element} {c.type}{c.components:<3} {c.rows:10} rows",
-                      f"{c.stored:12} bytes{', packed' * c.codec}")
-    except (StreamError, OSError) as error:
-        sys.exit(f"mrstream: {error}")
-
-
-if __name__ == "__main__":
-    main()
