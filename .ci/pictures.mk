@@ -2,7 +2,7 @@
 #
 #	make readme   its generated parts
 #	make packed    examples/packed.png, heads of few kilobytes, of $(DATA)/meshes/igea.ply.gz
-#	make picture  examples/page.png, the picture of the page, by Chromium, which it installs
+#	make posing   examples/posing.webp, the picture that moves, of $(DATA)/meshes/armadillo.off.gz, by Chromium
 #	make table1   the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
 
 table1: $(TOOLS) $(BUILD)/bench/plot
@@ -13,10 +13,10 @@ readme:
 	@tests/readme >$(BUILD)/README.md && cat $(BUILD)/README.md >README.md
 	@tests/findings >$(BUILD)/findings.7 && cat $(BUILD)/findings.7 >man/mr-findings.7
 
-picture: demo/index.html
-	@PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=tests python3 tests/page/picture.py $< examples/page.png
+posing: $(TOOLS)
+	@$(RUN) sh tests/page/posing '$(DATA)/meshes/armadillo.off.gz' '$(abspath examples/posing.webp)'
 
 packed: $(TOOLS)
 	@$(RUN) sh tests/bench/packed.sh '$(DATA)/meshes/igea.ply.gz' '$(abspath examples/packed.png)'
 
-.PHONY: table1 readme picture packed
+.PHONY: table1 readme posing packed
