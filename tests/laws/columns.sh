@@ -1,7 +1,7 @@
 # Lines have at most 120 columns, tabs at every eighth, but for rows of tables and what is shown as it is.
 cd "$TOP" || exit
 find lib cmd formats man examples .ci .github Makefile README.md tests/page tests/laws tests/bench/*page* \
-	-type f ! -name '*.png' ! -path '*/cache/*' |
+	-type f ! -name '*.png' ! -name '*.webp' ! -path '*/cache/*' |
 	LC_ALL=C sort | while read -r file; do
 	expand "$file" | LC_ALL=C.UTF-8 awk -v file="$file" '
 		/^\|/ || /^ *echo / { next }
