@@ -97,16 +97,24 @@ $(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
 	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<
 
 put = -e '/^<!-- $(1) -->$$/{r $(2)' -e 'd;}'
-$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/page/load.js $(BUILD)/page/main.gz
+$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/page/load.js $(BUILD)/page/main.gz \
+		$(BUILD)/page/library.gz
 	$(call say,page   )sed $(call put,style,formats/page/page.css) $(call put,load,formats/page/load.js) \
-		$(call put,program,$(BUILD)/page/main.gz) $< >$@
+		$(call put,program,$(BUILD)/page/main.gz) $(call put,library,$(BUILD)/page/library.gz) $< >$@
+
+$(BUILD)/page/library.gz: $(BUILD)/page/library.wasm
+	@gzip -9nc $< | base64 -w 0 >$@ && echo >>$@
 
 # The part of the library that the page runs, as WebAssembly, by the compiler that knows it.
 WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) $(addprefix lib/, \
-	$(addsuffix .c,$(addprefix base/,ctx rotation sort) $(addprefix mesh/,creases edges mesh zorder) \
+	$(addsuffix .c,$(addprefix base/,ctx rotation sort) $(addprefix mesh/,creases edges layers mesh weld zorder) \
 		$(addprefix compact/,bit_planes coder control_code lifting packed packed_fields) \
-		$(addprefix edit/,detail phong pose_basis turns) render/colormap stream/planes \
-		$(addprefix space/,bvh bvh_build geodesic predicates) \
+		$(addprefix edit/,correspondence deform deform_loose deform_stitch deform_system detail k_ring phong \
+			pose_basis smooth turns) \
+		$(addprefix op/,laplace voronoi_area) render/colormap stream/planes \
+		$(addprefix solve/,cholesky conjugate_gradients dissect elimination incomplete multifrontal \
+			multivector order solver sparse_apply sparse_product supernodal) \
+		$(addprefix space/,bvh bvh_build contact geodesic predicates source_map surface_walk thickness) \
 		$(addprefix subdivide/,displaced loop loop_limit))))
 $(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
 	@mkdir -p $(@D)
@@ -130,12 +138,11 @@ $(BUILD)/page/library.wasm $(BUILD)/web/mrz.wasm:
 		-nodefaultlibs -o $@ $^ -lc -lm
 
 # One script of all modules of the page, three.js included, packed, as text.
-$(BUILD)/page/main.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/library.wasm | setup
+$(BUILD)/page/main.gz: $(filter %.js,$(PAGE)) | setup
 	@mkdir -p $(@D)
 	$(call say,bundle )esbuild formats/page/main.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
-		--alias:three=$(THREE) --alias:library.wasm=$(abspath $(BUILD))/page/library.wasm \
-		--loader:.wasm=binary --log-level=warning \
-		--outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
+		--alias:three=$(THREE) --log-level=warning --outfile=$(@:.gz=.js) && \
+		gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)

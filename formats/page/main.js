@@ -1,6 +1,6 @@
 /* main.js -- begins: reads the page's data, and connects its controls. */
 import { App } from "./app.js";
-import { takeBytes, takePictures } from "./stream/data.js";
+import { takeBytes, takeLibrary, takePictures } from "./stream/data.js";
 import { begin as loadLibrary } from "./library/compile.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
@@ -76,7 +76,7 @@ async function drawFirst(app, film) {
 async function begin() {
 	if (!canDraw())
 		throw new Error("This browser cannot draw the model: WebGL is missing or switched off.");
-	await loadLibrary().catch(() => {
+	await loadLibrary(takeLibrary()).catch(() => {
 		throw new Error("This browser is too old for the page: it has no WebAssembly with vectors.");
 	});
 	const frames = await readFrames(takeBytes());

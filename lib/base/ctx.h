@@ -91,7 +91,9 @@ struct mr_ctx {
 
 #ifdef __wasm__ /* there running out of memory ends the call, as an exception of JavaScript */
 #define MR_ENTER(ctx) ((void)(ctx))
+enum { MR_BROWSER = 1 }; /* has one solver, linear poses, no nearest points */
 #else
+enum { MR_BROWSER = 0 };
 /* Where a public function was entered: private to MR_ENTER. */
 struct mr_entry {
 	mr_ctx *ctx;

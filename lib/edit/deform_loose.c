@@ -37,6 +37,8 @@ mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *follows, const uint3
 		l->part[v] = follows[v] && root[v] == v ? (uint32_t)l->parts++ : MR_NONE;
 	if (!l->parts)
 		return MR_OK;
+	if (MR_BROWSER)
+		return mr_fail(ctx, MR_EMESH, "%zu parts hold to nothing", l->parts);
 	l->anchor = MR_NEW(ctx, l->parts * MR_ANCHORS, uint32_t);
 	box = MR_NEW(ctx, l->parts, mr_box);
 	for (size_t k = 0; k < l->parts; k++)

@@ -139,7 +139,7 @@ set_up(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest, double started)
 	s->solver = mr_solver_new(ctx);
 	mark = mr_mark_take(ctx);
 	MR_TRY(assemble(ctx, s));
-	if (s->opts.solver.kind >= MR_MULTIGRID)
+	if (!MR_BROWSER && s->opts.solver.kind >= MR_MULTIGRID)
 		MR_TRY(build_hierarchy(ctx, s, rest));
 	s->seconds_assemble = mr_seconds() - started;
 	status = open_solver(ctx, s);

@@ -1,11 +1,6 @@
-/*
- * Sparse Cholesky: minimum degree within the parts of a dissection (Amestoy, Davis, Duff 1996: CAMD), then
- * the multifrontal method.
- */
+/* Sparse Cholesky: an order of elimination, then the multifrontal method. */
 #include "solve/multifrontal.h"
 #include "solve/solver_type.h"
-
-#include <camd.h>
 
 typedef struct cholesky {
 	mr_supernodal *solve;
@@ -16,19 +11,6 @@ static void
 cholesky_drop(void *data)
 {
 	mr_ctx_free(&((cholesky *)data)->work);
-}
-
-/* Without parts, minimum degree of all. */
-static mr_status
-find_order(mr_ctx *ctx, const mr_system *system, int *order)
-{
-	const mr_sparse *a = system->a;
-	double control[CAMD_CONTROL];
-
-	camd_defaults(control);
-	if (a->n > 0 && camd_order(a->n, a->start, a->index, order, control, NULL, system->part) < CAMD_OK)
-		return mr_fail(ctx, MR_EMEM, "no memory to find an order of elimination");
-	return MR_OK;
 }
 
 /* The squared ratio of the smallest to the largest pivot. */
@@ -71,7 +53,7 @@ cholesky_setup(
 	mr_elimination e;
 	mr_pattern pattern;
 
-	MR_TRY(find_order(ctx, system, order));
+	MR_TRY(mr_order(ctx, system->a, system->part, order));
 	mr_eliminate(ctx, work, system->a, order, &e, &pattern);
 	analysed = mr_seconds();
 	bytes = (double)e.l.value_at[e.l.count] * sizeof(double) +

@@ -1,10 +1,10 @@
 /*
  * George 1973: Nested dissection of a regular finite element mesh; the cuts are across an axis, where the
- * fewest edges cross, as surfaces invite it.  The larger parts are left to minimum degree.
+ * fewest edges cross, as surfaces invite it.  The larger parts are left to mr_order.
  */
 #include "solve/sparse.h"
 
-enum { BINS = 64, SMALL = 2000 };
+enum { BINS = 64, SMALL = MR_BROWSER ? 40 : 2000 };
 enum { BELOW, ABOVE, SEPARATOR, PENDING };
 
 /* Vertices order[begin] to order[end - 1], which are of a node alone. */

@@ -1,9 +1,17 @@
 /* The table of solvers, and how each is called. */
 #include "solve/solver_type.h"
 
-/* The order of mr_solver_kind. */
-static const mr_solver_type *const types[] = { &mr_cholesky_type, &mr_cholmod_type, &mr_lu_type, &mr_cg_type,
-	&mr_multigrid_type, &mr_vcycle_type };
+/* The order of mr_solver_kind; a browser has the first. */
+static const mr_solver_type *const types[] = {
+	&mr_cholesky_type,
+#ifndef __wasm__
+	&mr_cholmod_type,
+	&mr_lu_type,
+	&mr_cg_type,
+	&mr_multigrid_type,
+	&mr_vcycle_type,
+#endif
+};
 
 struct mr_solver {
 	mr_ctx keep; /* of all that it has */
@@ -39,9 +47,10 @@ mr_solver_open(mr_ctx *ctx, mr_solver *s, const mr_solver_opts *opts, const mr_s
 	s->data = mr_alloc_zero(keep, 1, s->type->size);
 	if (s->type->drop)
 		mr_own(keep, s->type->drop, s->data);
-	threads = mr_serial_begin();
+	threads = MR_BROWSER ? 0 : mr_serial_begin();
 	status = s->type->setup(keep, opts, system, s->data, &s->report);
-	mr_serial_end(threads);
+	if (!MR_BROWSER)
+		mr_serial_end(threads);
 	return mr_prefix(ctx, mr_fail_as(ctx, keep, status), "%s", s->type->name);
 }
 

@@ -83,4 +83,7 @@ void mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width
  */
 void mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part);
 
+/* An order to eliminate the rows of a in, its lower triangle, part after part; NULL: all are one.  order: a->n. */
+mr_status mr_order(mr_ctx *ctx, const mr_sparse *a, const int *part, int *order) MR_WARN_UNUSED;
+
 #endif

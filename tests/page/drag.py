@@ -4,6 +4,7 @@ import shlex
 
 from browser import Browser
 from checks import Camera, box, check, columns, end, length, sub
+from painted import give, push, text_of
 from posed import line, places, same_layers, pose_by
 
 GIZMO = 0.6 / 7  # of the distance from the eye: what three.js has as 1
@@ -155,6 +156,23 @@ def far(b):
     check(length(sub(where, places(b, "mesh")[int(b.picked()["vertex"])])) < 1e-5, "picked: %s" % b.picked())
 
 
+def painted(b):
+    """From painting to dragging: what the page solves for is what the pipe does."""
+    b.open("plain.html")
+    p = columns("plain.mrs")["mesh", "position"]
+    b.press("p")
+    check(b.eval("document.getElementById('drag').disabled"), "there is nothing to drag yet")
+    give(b, {v: 3 if y > 0.9 else 6 if x > 0.8 else 1 for v, (x, y, _) in enumerate(p) if y > -0.9})
+    with open("painted.regions", "w") as file:
+        file.write(text_of(b))
+    push(b, "drag")
+    check(b.eval("mrView.posing.handle") == 1, "it does not go from painting to posing")
+    text = "mr-pose -H 1 -r 1,1,0,40 -t 0.1,0.2,0 | mr-pose -H 4 -r 0,0,1,30 | mr-decode"
+    pose_by(b, text)
+    same(b, "plain.mrs", "mr-smooth | mr-select --from painted.regions | mr-solve --basis | mr-encode | " + text,
+        "painted")
+
+
 def two(b):
     """Another model is posed by its own basis, in every layer that is switched on; what was dragged before stays
     behind."""
@@ -175,7 +193,7 @@ def two(b):
 
 
 with Browser() as browser:
-    for test in (gizmo, touch, lines, far, two):
+    for test in (gizmo, touch, lines, far, painted, two):
         browser.draw(test is two)
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)

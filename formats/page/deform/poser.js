@@ -38,6 +38,8 @@ export class Poser {
 
 		this.centre = centre;
 		values.rest = values.encoded || values.position;
+		if (this.columns.bary.components === 3) /* as the library makes it, not as streams of pages have it */
+			values.bary = values.bary.filter((_, i) => i % 3 < 2);
 		this.held = PARTS.map((name) => library.put(values[name]));
 		const counts = [values.position.length / 3, values.triangles.length / 3, values.height.length],
 			parts = library.put(Uint32Array.from([...this.held, ...counts]));

@@ -1,6 +1,7 @@
 /* paint_side.js -- the part of the side for painting: tools, regions with the numbers of their vertices, what can be
  * done. */
 import { regionColor, regionName } from "../draw/colors.js";
+import { canSolve } from "./solving.js";
 import { HANDLE } from "./regions.js";
 import { count } from "../stream/text.js";
 
@@ -53,6 +54,7 @@ function showButtons(painter) {
 	$("paint-undo").disabled = regions.past.length === 0;
 	$("paint-redo").disabled = regions.future.length === 0;
 	$("clear").disabled = painter.region === 0;
+	$("drag").disabled = !canSolve(painter.app.shown.frame, painter.work);
 	document.querySelector("#tools [value=part]").hidden = !painter.layer.triangles;
 }
 
@@ -81,6 +83,7 @@ export function connectPaint(painter) {
 		$(what).addEventListener("click", () => painter.edit(what));
 	$("paint-undo").addEventListener("click", () => painter.back(false));
 	$("paint-redo").addEventListener("click", () => painter.back(true));
+	$("drag").addEventListener("click", () => painter.drag());
 	$("size").addEventListener("input", () => painter.resize(Number($("size").value)));
 }
 
@@ -90,6 +93,7 @@ const KEYS = {
 	z: (painter) => painter.back(false),
 	y: (painter) => painter.back(true),
 	Escape: (painter) => painter.leave(),
+	d: () => $("drag").click(),
 	x: (painter) => painter.take(0),
 	0: (painter) => painter.take(1),
 	"[": (painter) => painter.resize(painter.size - 5),

@@ -4,10 +4,12 @@ import { Regions, FIXED, HANDLE } from "./regions.js";
 import { regionColor } from "../draw/colors.js";
 import { connectPaint, showPaint } from "./paint_side.js";
 import { columnOf, ownRegion } from "../stream/stream.js";
+import { solve } from "./solving.js";
 import { Strokes } from "./strokes.js";
 import { TakeAway } from "./takeaway.js";
 import { partOf } from "../mesh/topology.js";
 
+const $ = (id) => document.getElementById(id);
 const LAYERS = ["mesh", "control", "points"]; /* those of mr-select, in its order */
 const LEAST = 0.002, MOST = 0.5; /* radius of the brush, of the diagonal */
 
@@ -15,10 +17,9 @@ const LEAST = 0.002, MOST = 0.5; /* radius of the brush, of the diagonal */
 const radiusOf = (size) => LEAST * (MOST / LEAST) ** (size / 100);
 
 /* A column as the stream has them, whose values may change: then so does its version. */
-function columnFor(layer, origin, regions) {
+function columnFor(layer, regions) {
 	return {
-		layer, name: "region", element: "v", type: "u", components: 1, rows: regions.values.length, origin,
-			version: 0,
+		layer, name: "region", element: "v", type: "u", components: 1, rows: regions.values.length, version: 0,
 		values: async () => regions.values,
 	};
 }
@@ -78,7 +79,7 @@ export class Painter {
 		const regions = new Regions(origin && origin.element === "v" && origin.type === "u" ?
 			await origin.values() : null, position.rows);
 		const work = { name, rows: position.rows, triangles, group: frame.group, regions,
-			column: columnFor(name, origin, regions), painted: false };
+			column: { ...columnFor(name, regions), origin }, painted: false };
 		this.works.push(work);
 		return work;
 	}
@@ -151,6 +152,21 @@ export class Painter {
 		this.work.column.version++;
 		showPaint(this);
 		return changes || !this.work.painted ? this.show() : Promise.resolve();
+	}
+
+	/* From painting to dragging: the regions, as they are now, become those that handles are of. */
+	async drag() {
+		const { work, app } = this, { frame } = app.shown, values = work.regions.values.slice();
+
+		$("message").textContent = "Solving…";
+		await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+		const solved = await solve(frame, work);
+		$("unsolved").hidden = solved;
+		if (solved) {
+			work.column.origin = columnFor(work.name, { values });
+			await this.choose(null);
+		}
+		await app.change({ color: "region" });
 	}
 
 	/* Clear, fill: `what` names it. */

@@ -18,24 +18,19 @@ function join(parts) {
 	return bytes;
 }
 
-/* The bytes of the pictures, which are taken out of the page. */
-export function takePictures() {
-	return [...document.querySelectorAll("script.picture")].map((block) => {
+/* The bytes of elements, which are taken out of the page. */
+function take(which) {
+	return [...document.querySelectorAll(which)].map((block) => {
 		block.remove();
 		return decode(block.textContent);
 	});
 }
 
-/* Takes the elements out of the page as it reads them, so that no text is held for long. */
-export function takeBytes() {
-	const parts = [];
+export const takePictures = () => take("script.picture");
+export const takeLibrary = () => take("#library")[0];
 
-	for (const block of document.querySelectorAll("script.stream")) {
-		parts.push(decode(block.textContent));
-		block.remove();
-	}
-	return join(parts);
-}
+/* The stream. */
+export const takeBytes = () => join(take("script.stream"));
 
 /* The bytes of a model in a file beside the page: a script that calls mrPart with them, in base64. */
 export async function takeBeside(file) {

@@ -135,9 +135,9 @@ export function fileOf(frame) {
 		"model";
 }
 
-/* The stream that a line for the shell reads. */
+/* The stream that a line for the shell reads: where the page has solved, that of the saved script. */
 export function streamOf(frame) {
-	return (frame.file ? fileOf(frame) : "model") + ".mrs";
+	return frame.solved ? fileOf(frame) + "-painted.mrs" : (frame.file ? fileOf(frame) : "model") + ".mrs";
 }
 
 /* A text column's lines; none where there is no such column. */
