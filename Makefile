@@ -73,7 +73,7 @@ NEEDS   := build $(if $(filter setup check check-long check-page check-cluster c
 	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) \
 	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(if $(filter mpi check-mpi,$(MAKECMDGOALS)),check mpi) \
 	$(if $(filter lint,$(MAKECMDGOALS)),$(shell command -v mpicc >/dev/null && echo mpi)) \
-	$(if $(filter wheel check-wheel,$(MAKECMDGOALS)),portable) \
+	$(if $(filter wheel check-wheel dist-bin check-dist-bin,$(MAKECMDGOALS)),portable) \
 	$(patsubst check-%,%,$(filter check-wheel lint bench deb check-deb check-arm64,$(MAKECMDGOALS)))
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 

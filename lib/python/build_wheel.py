@@ -43,10 +43,10 @@ def contents(version, portable, top):
                            stdout=subprocess.PIPE, check=True).stdout
     files = {f"mr/{path.name}": path.read_bytes() for path in package.glob("*.py")}
     files.update({"mr/_tools.py": tools, "mr/py.typed": b""})
-    places = {"bin": "data/scripts", "lib/mr": "data/data/lib/mr", "share/doc/mr": "dist-info/licenses"}
-    for folder, place in places.items():
+    places = {"bin": "data/scripts", "share/doc/mr": "dist-info/licenses"}  # all else where it is
+    for folder in ["bin", "lib/mr", "share/doc/mr", *(f"share/man/man{n}" for n in (1, 5, 7))]:
         for path in (portable / folder).iterdir():
-            files[f"mr_tools-{version}.{place}/{path.name}"] = path.read_bytes()
+            files[f"mr_tools-{version}.{places.get(folder, f'data/data/{folder}')}/{path.name}"] = path.read_bytes()
     page = METADATA.format(version=version) + (package.parent / "README.md").read_text(encoding="utf-8")
     files[f"mr_tools-{version}.dist-info/METADATA"] = page.encode()
     return files
