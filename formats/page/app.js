@@ -24,8 +24,8 @@ export class App {
 		this.frames = frames;
 		this.stage = new Stage($("canvas"));
 		this.pictures = new Pictures(pictures, this.stage.renderer);
-		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, color: null,
-			range: null };
+		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, ground: false,
+			color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
@@ -73,6 +73,7 @@ export class App {
 		this.color = await colour(side, this.choice, this.pictures);
 		for (const { name } of seen)
 			this.drawn.get(name).drawn.look(this.choice.flat, this.choice.wire);
+		this.stage.lay(this.choice.ground && this.box());
 		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]));
 		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);
@@ -157,15 +158,20 @@ export class App {
 		return [...this.drawn].filter(([name]) => visible.has(name)).map(([, d]) => d.box).filter(Boolean);
 	}
 
-	/* All that is seen in view. */
-	fit(from) {
+	/* Of all that is seen; null: of nothing. */
+	box() {
 		const boxes = this.boxes();
 
-		if (boxes.length)
-			this.stage.fit({
-				low: boxes[0].low.map((_, c) => Math.min(...boxes.map((b) => b.low[c]))),
-				high: boxes[0].high.map((_, c) => Math.max(...boxes.map((b) => b.high[c]))),
-			}, from);
+		return boxes.length ? {
+			low: boxes[0].low.map((_, c) => Math.min(...boxes.map((b) => b.low[c]))),
+			high: boxes[0].high.map((_, c) => Math.max(...boxes.map((b) => b.high[c]))),
+		} : null;
+	}
+
+	/* All that is seen in view. */
+	fit(from) {
+		if (this.box())
+			this.stage.fit(this.box(), from);
 	}
 
 	/* The vertex under a place of the window. */

@@ -26,6 +26,7 @@ const KEYS = {
 	c: () => cycle($("color")),
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),
 	e: () => $("wire").click(),
+	g: () => $("ground").click(),
 	v: () => cycle($("view")),
 	f: () => $("fit").click(),
 	n: (shift) => stepModel(shift ? -1 : 1),

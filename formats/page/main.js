@@ -6,6 +6,7 @@ import { Film } from "./film.js";
 import { listen } from "./keys.js";
 import { listModels } from "./models.js";
 import { readFrames } from "./mesh/models.js";
+import { connectSave } from "./save.js";
 import { canDraw } from "./draw/stage.js";
 
 const CLICK = 6; /* pixels that a click may move */
@@ -45,12 +46,14 @@ function connect(app) {
 	for (const shade of document.querySelectorAll("input[name=shade]"))
 		shade.addEventListener("change", () => app.change({ flat: $("flat").checked }));
 	$("wire").addEventListener("change", () => app.change({ wire: $("wire").checked }));
+	$("ground").addEventListener("change", () => app.change({ ground: $("ground").checked }));
 	$("view").addEventListener("change", () => app.fit(view()));
 	$("fit").addEventListener("click", () => app.fit());
 	$("up").addEventListener("change", () => {
 		app.stage.up($("up").value);
 		app.fit(view());
 	});
+	connectSave(app);
 	onClick($("canvas"), (x, y) => app.painter.tool || app.pick(x, y));
 	listen(() => app.forget(), (handle) => app.posing.choose(handle), app.painter);
 }

@@ -55,7 +55,7 @@ def look(b):
     """Flat, edges, views, the other axis: each another picture, and the first one again behind it.  On the page as it
     was left."""
     first = b.picture()
-    for key, back in (("s", "s"), ("e", "e")):
+    for key, back in (("s", "s"), ("e", "e"), ("g", "g")):
         b.press(key)
         check(b.picture() != first, "key %s changes nothing" % key)
         b.press(back)

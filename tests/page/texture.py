@@ -2,14 +2,17 @@
 import base64
 import json
 import math
+import os
 import re
 import struct
+import subprocess
 import sys
 import zlib
 
 from browser import Browser, Picture
 from checks import box, check, columns, end, length, sub
-from posed import pose_by
+from painted import push
+from posed import places, pose_by
 
 GROUND, PLAIN = (244, 243, 240), (212, 204, 193)
 
@@ -180,12 +183,51 @@ def pose(b):
     differ = sum(is_far(p, q, 24) for p, q in zip(got, want)) / len(want)
     check(differ < 0.002, "the pose: %.4f of the picture differ from the pipe's" % differ)
     check(sum(is_far(p, q, 24) for p, q in zip(got, rest)) > 0.02 * len(want), "the pose looks like the rest")
+    saves(b)
+
+
+def saves(b):
+    """As a GLB what is seen: places, faces and the picture, or the colours; and a picture.  On the page as it was
+    left."""
+    values, name = import_glb(b), b.text("name")
+    corners = [p for t in values["mesh", "triangles"] for p in (values["mesh", "position"][v] for v in t)]
+    seen = places(b, "mesh")
+    want = [seen[v] for v in b.eval("Array.from(mrView.drawn.get('mesh').drawn.triangles)")]
+    off = max(length(sub(p, q)) for p, q in zip(corners, want))
+    check(len(corners) == len(want) and off < 1e-5, "the GLB: %d corners, %g off" % (len(corners), off))
+    check(("mesh", "corner_texcoord") in values and any(key[1].endswith(".png") or key[1] == "file" for key in values),
+        "the GLB has no picture: %s" % sorted(values))
+    b.choose("color", "detail_height")
+    values = import_glb(b)
+    check(len(set(map(tuple, values["mesh", "color"]))) > 20, "the GLB has no colours")
+    push(b, "save-picture")
+    check(wait_for(b, name + ".png"), "no picture is saved: %s" % os.listdir("saved"))
+
+
+def wait_for(b, name):
+    for _ in range(100):
+        if os.path.exists(os.path.join("saved", name)):
+            return True
+        b.settle()
+    return False
+
+
+def import_glb(b):
+    name = b.text("name") + ".glb"
+    if os.path.exists("saved/" + name):
+        os.remove("saved/" + name)
+    push(b, "save-glb")
+    check(wait_for(b, name), "no GLB is saved, but %s" % os.listdir("saved"))
+    subprocess.run(["mr-import", "-q", "saved/" + name, "-o", "saved.mrs"], check=True)
+    return columns("saved.mrs")
 
 
 if sys.argv[1:] == ["pictures"]:
     pictures()
     sys.exit()
+os.makedirs("saved", exist_ok=True)
 with Browser(scale=1) as browser:
+    browser.call("Page.setDownloadBehavior", behavior="allow", downloadPath=os.path.abspath("saved"))
     for test in (balls, card, pose):
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)

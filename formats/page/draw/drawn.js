@@ -32,6 +32,7 @@ export class Drawn {
 	beSurface() {
 		this.solid = new Solid(this.position, this.triangles);
 		this.body = new THREE.Mesh(this.geometry, this.materials.body);
+		this.body.castShadow = true;
 		this.group.add(this.body);
 		this.shape(this.solid);
 		this.source = this.triangles;

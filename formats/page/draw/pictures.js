@@ -41,6 +41,7 @@ export class Pictures {
 			Math.min(this.renderer.capabilities.maxTextureSize, MOST)));
 
 		bitmap.close();
+		texture.bytes = bytes;
 		texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
 		texture.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
 		return texture;

@@ -2,6 +2,7 @@
 import * as THREE from "three/build/three.module.js";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Gizmo } from "./gizmo.js";
+import { Ground } from "./ground.js";
 
 const ANGLE = 30; /* degrees, of the height of the picture */
 
@@ -69,6 +70,16 @@ export class Stage {
 		this.camera.position.copy(this.controls.target).add(to.setLength(this.radius / Math.sin(across)));
 		this.controls.update();
 		this.ask();
+	}
+
+	/* Lays the ground below a box; none: no ground. */
+	lay(box) {
+		if (box && !this.ground)
+			this.ground = new Ground(this);
+		if (this.ground)
+			this.ground.group.visible = Boolean(box);
+		if (box)
+			this.ground.lie(box, this.direction(0, 1, 0), this.direction(0.4, 1, 0.2));
 	}
 
 	/* Puts layers, [name, drawn], on the stage. */

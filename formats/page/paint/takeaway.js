@@ -3,17 +3,9 @@
 import { HANDLE } from "./regions.js";
 import { write } from "./selection_file.js";
 import { columnOf, fileOf } from "../stream/stream.js";
+import { save } from "../stream/text.js";
 
 const $ = (id) => document.getElementById(id);
-
-function save(name, text) {
-	const link = document.createElement("a");
-
-	link.href = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
-	link.download = name;
-	link.click();
-	setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
 
 function hasHandles(layer, regions) {
 	return layer !== "points" && [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0);

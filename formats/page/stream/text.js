@@ -47,3 +47,13 @@ export async function copy(of) {
 	button.classList.add("copied");
 	setTimeout(() => button.classList.remove("copied"), 1200);
 }
+
+/* A file of these parts. */
+export function save(name, ...parts) {
+	const link = document.createElement("a");
+
+	link.href = URL.createObjectURL(new Blob(parts));
+	link.download = name;
+	link.click();
+	setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
