@@ -6,6 +6,7 @@ extern const char mr_page_html[]; /* formats/page, in one text */
 
 static mr_page page;
 static bool beside;
+static const char *name;
 
 static const cmd_opt table[] = {
 	{ 0, "texture", CMD_TEXT, &page.pictures.texture, 0, 0, "FILE", "picture on surfaces", NULL },
@@ -13,6 +14,9 @@ static const cmd_opt table[] = {
 	    NULL },
 	{ 0, "pack", CMD_SHARE, &page.pack, 1e-7, 0.1, "SHARE",
 	    "pack displaced surfaces: mean distance from what they were made from, of the diagonal", NULL },
+	{ 0, "title", CMD_TEXT, &page.title, 0, 0, "TEXT", "of the page (default: file and frame)", NULL },
+	{ 0, "caption", CMD_TEXT, &page.caption, 0, 0, "TEXT", "a sentence below the title", NULL },
+	{ 0, "name", CMD_TEXT, &name, 0, 0, "NAME", "of the stream, in lines for the shell", NULL },
 	{ 0, "beside", CMD_FLAG, &beside, 0, 0, NULL, "models but the first in files beside the page", NULL },
 	{ 0 },
 };
@@ -32,7 +36,7 @@ prepare(cmd *c)
 static mr_status
 view_frame(cmd *c, mr_frame *f)
 {
-	page.from = c->file;
+	page.from = name ? name : c->file;
 	return mr_page_add(&c->ctx, &page, f, c->layer);
 }
 

@@ -451,20 +451,39 @@ wear_pictures(mr_ctx *ctx, mr_frame *f, mr_page_pictures *pictures, bool *shown,
 	return MR_OK;
 }
 
-/* How columns are stored, and which file (without folder and suffix) they are from, are told in a text of no
- * layer, `page`. */
+static void
+note_line(mr_text *notes, const char *what, const char *text)
+{
+	if (!text)
+		return;
+	mr_text_add(notes, "%s ", what);
+	for (; *text; text++)
+		mr_text_add(notes, "%c", (unsigned char)*text < ' ' ? ' ' : *text);
+	mr_text_add(notes, "\n");
+}
+
+/* What the page says of all its frames, and which file (without folder and suffix) they are from. */
+static mr_text
+begin_notes(mr_ctx *ctx, const mr_page *page)
+{
+	mr_text notes = { .ctx = ctx };
+
+	note_line(&notes, "title", page->title);
+	note_line(&notes, "caption", page->caption);
+	note_line(&notes, "file", page->from ? mr_format_stem(ctx, page->from) : NULL);
+	return notes;
+}
+
+/* How columns are stored is told in a text of no layer, `page`. */
 static mr_status
 take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const displaced *d, mr_frame *to)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
-	const char *stem = page->from ? mr_format_stem(ctx, page->from) : NULL;
-	mr_text notes = { .ctx = ctx };
+	mr_text notes = begin_notes(ctx, page);
 
 	for (size_t i = 0; i < from->count; i++)
 		shown[i] = is_shown(from, &from->columns[i], layers, d);
 	MR_TRY(wear_pictures(ctx, from, &page->pictures, shown, &notes));
-	if (stem)
-		mr_text_add(&notes, "file %s\n", stem);
 	MR_TRY(take_columns(ctx, from, shown, d, page->pack, to, &notes));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
@@ -556,15 +575,16 @@ write_beside(mr_ctx *ctx, mr_page *page)
 	return MR_OK;
 }
 
-/* Puts the name of the frame's file, as part of an address, into the page's stream. */
+/* Puts the name of the frame's file, as part of an address, and its history into the page's stream. */
 static mr_status
 put_reference(mr_ctx *ctx, mr_page *page, const mr_frame *frame)
 {
 	mr_frame f = { .name = frame->name, .key = frame->key, .number = frame->number };
-	mr_text notes = { .ctx = ctx };
+	const mr_column *history = mr_frame_find(frame, "", "history");
+	mr_text notes = begin_notes(ctx, page);
 
-	if (page->from)
-		mr_text_add(&notes, "file %s\n", mr_format_stem(ctx, page->from));
+	if (history)
+		MR_TRY(mr_frame_pass(ctx, &f, history));
 	mr_text_add(&notes, "beside ");
 	for (const char *s = mr_file_name(name_beside(ctx, page)); *s; s++) {
 		unsigned byte = (unsigned char)*s;

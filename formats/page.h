@@ -59,6 +59,7 @@ typedef struct mr_page {
 	mr_page_stream stream, other; /* of the page; of the model that goes beside it */
 	size_t frames, models;
 	mr_page_pictures pictures;
+	const char *title, *caption; /* the caller's, or NULL */
 	const char *from; /* the caller's to set: the file that frames come from now; NULL: none to be told */
 } mr_page;
 

@@ -89,7 +89,7 @@ async function begin() {
 		$("model").value = frames[frame].group;
 		return app.change({ frame }).catch(fail);
 	});
-	listModels(frames, (frame) => film.go(frame));
+	await listModels(frames, (frame) => film.go(frame));
 	await drawFirst(app, film);
 	connect(app);
 }

@@ -1,7 +1,7 @@
 /* side.js -- the side of the page: what is in the frame, switches for it, the legend of the colours. */
 import { kindColor, mapOf, regionColor, regionName } from "./draw/colors.js";
 import { titleOf } from "./stream/stream.js";
-import { count, element } from "./stream/text.js";
+import { count, element, plain } from "./stream/text.js";
 
 const MOST = 24; /* kinds that a legend lists */
 const $ = (id) => document.getElementById(id);
@@ -94,9 +94,8 @@ function sayFinding(line) {
 }
 
 export function showName(frame, history, findings) {
-	$("name").textContent = "";
-	$("name").append(element("bdi", titleOf(frame)));
-	document.title = $("name").textContent;
+	$("name").textContent = document.title = plain(frame.title || titleOf(frame));
+	$("caption").textContent = plain(frame.caption || "");
 	$("found").hidden = findings.length === 0;
 	$("findings").replaceChildren(...findings.map((line) => element("div", sayFinding(line))));
 	$("past").hidden = history.length === 0;

@@ -100,6 +100,8 @@ def color(b):
 
 def groups(b):
     b.open("groups.html")
+    said = b.text("name"), b.text("caption"), b.eval("document.title"), b.eval("mrView.painter.takeAway.name")
+    check(said == ("A <b>", "Red & green.", "A <b>", "two-groups"), "title, caption, name: %s" % (said,))
     b.choose("color", "group")
     kinds = b.eval("[...document.querySelectorAll('#kinds li')].map(e => e.textContent)")
     check(kinds == ["red <b>", "green"], "groups: %s" % kinds)
@@ -129,6 +131,8 @@ def film(b):
     check(b.text("number") == stopped, "play does not stop")
     b.open("two.html")
     check(b.text("name") == "torus", "two: " + b.text("name"))
+    names = b.eval("[...document.querySelectorAll('#model option')].map(e => e.textContent)")
+    check(names == ["torus: original", "cube", "torus: smooth"], "names of models: %s" % names)
     b.press("ArrowRight")
     check(b.text("name") == "cube" and b.picture().share(b.canvas(), lambda p: far(p, LIGHT)) > 0.1,
         "the other model is not in view")

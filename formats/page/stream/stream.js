@@ -68,13 +68,13 @@ function wearing(frame, layer) {
 
 const given = (word, read) => (word === "-" ? null : read(word));
 
-/* What the page's text says: the file; which columns are stored as sums of steps; which layer is
+/* What the page's text says: title, caption and file; which columns are stored as sums of steps; which layer is
  * computed; what layers wear. */
 async function understand(frame) {
 	for (const line of await linesOf(frame, "", "page")) {
 		const [how, layer, name, ...more] = line.split(" ");
-		if (how === "file")
-			frame.file = line.slice(5);
+		if (how === "title" || how === "caption" || how === "file")
+			frame[how] = line.slice(how.length + 1);
 		else if (how === "beside")
 			frame.beside = layer;
 		else if (how === "surface")
@@ -137,7 +137,7 @@ export function fileOf(frame) {
 
 /* The stream that a line for the shell reads: where the page has solved, that of the saved script. */
 export function streamOf(frame) {
-	return frame.solved ? fileOf(frame) + "-painted.mrs" : (frame.file ? fileOf(frame) : "model") + ".mrs";
+	return fileOf(frame) + (frame.solved ? "-painted" : "") + ".mrs";
 }
 
 /* A text column's lines; none where there is no such column. */
