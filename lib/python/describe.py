@@ -12,7 +12,7 @@ import textwrap
 # What each form of operands is in Python: parameters, and what the function returns.
 OPERANDS = {
     "[FILE...]": ("source: Frames", "Frames"),
-    "[FILE...] [OUT.mrs]": ("*files: Path", "Iterable[Frame]"),
+    "[FILE...] [OUT.mrs]": ("*files: Path", "Iterator[Frame]"),
     "SHAPE [OUT.mrs]": ("shape: str", "Frame"),
     "[FILE...] OUT": ("source: Frames, out: Path", "bytes"),
     "[FILE...] OUT.png": ("source: Frames, out: Path", "bytes"),
@@ -29,7 +29,7 @@ HEAD = """\
 \"\"\"The tools of mr as functions: made of `mr --json` by describe.py.\"\"\"
 from __future__ import annotations
 
-from typing import Iterable, Literal
+from typing import Iterator, Literal
 
 from .stream import Frame
 from .tools import Frames, Number, Path, Report, Stream, Text, Vector, tool

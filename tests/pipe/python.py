@@ -148,8 +148,8 @@ def any_frame():
 
 
 warnings.simplefilter("ignore")
-given = 0
-for attempt in range(400):
+given, attempts = 0, 400 // int(os.environ.get("SPARSE", 1))
+for attempt in range(attempts):
     try:
         frame = any_frame() if attempt % 4 else model
         if attempt % 8 < 4:
@@ -165,5 +165,5 @@ for attempt in range(400):
         check(str(error), f"attempt {attempt}: no sentence: {error!r}")
     except Exception as error:
         check(False, f"attempt {attempt}: {error!r}")
-check(10 < given < 200, f"{given} of 400 went well")
+check(attempts / 40 < given < attempts / 2, f"{given} of {attempts} went well")
 raise SystemExit(failed)

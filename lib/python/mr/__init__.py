@@ -18,14 +18,19 @@ those of its command line.
 A tool that fails raises mr.Error with its sentence.  What it finds poor in a result is a warning, mr.Finding, and stays
 in frame.findings.
 """
+from __future__ import annotations
+
+from typing import Any, Iterable
+
 from . import stream
 from ._tools import *  # noqa: F401,F403
 from ._tools import export, import_
 from .stream import CutOff, Error, Finding, Frame, StreamError, mesh
 from .stream import read as frames
+from .tools import Path
 
 
-def read(path, **options):
+def read(path: Path, **options: Any) -> Frame:
     """The frame of a model's file, by the options of mr.import_, or of a stream; mr.frames(path) gives all of one."""
     with open(path, "rb") as file:
         is_stream = file.read(8) == stream.MAGIC
@@ -35,7 +40,7 @@ def read(path, **options):
     return found[0]
 
 
-def write(path, frames, **options):
+def write(path: Path, frames: Frame | Iterable[Frame], **options: Any) -> None:
     """Writes a frame, or frames, as a stream if the path ends in .mrs, else as models by the options of mr.export."""
     if str(path).endswith(".mrs"):
         stream.write(path, [frames] if isinstance(frames, Frame) else frames, history=None)

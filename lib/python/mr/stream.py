@@ -43,6 +43,8 @@ The laws of the format are checked, and the checksums of a frame before it is gi
 StreamError, and CutOff where END is missing; so read to the end to know that the tool before succeeded.  END is written
 unless an exception ends the block of writer(), or the frames of write().
 """
+from __future__ import annotations
+
 import contextlib
 import io
 import mmap
@@ -54,6 +56,7 @@ import struct
 import sys
 import zlib
 from collections.abc import MutableMapping
+from typing import Any, Iterable, Iterator
 
 import numpy as np
 
@@ -211,7 +214,7 @@ class Layer(MutableMapping):
 class Frame:
     """Its name; key (False: a delta); columns, {(layer, name): Column} in order; and its layers by name."""
 
-    def __init__(self, name, key=True, columns=()):
+    def __init__(self, name: str, key: bool = True, columns: Any = ()):
         if not isinstance(name, str):
             raise StreamError(f"a frame cannot be called {name!r}")
         self.name, self.key, self.columns = name, key, dict(columns)
@@ -219,7 +222,7 @@ class Frame:
     def __iter__(self):
         return iter(dict.fromkeys(layer for layer, _ in self.columns))
 
-    def __getitem__(self, layer):
+    def __getitem__(self, layer: str) -> Layer:
         if layer not in self:
             raise KeyError(layer)
         return Layer(self, layer)
@@ -229,12 +232,12 @@ class Frame:
             del self.columns[layer, name]
 
     @property
-    def history(self):
+    def history(self) -> str:
         """A line for each tool that the frame has been through."""
         return self.columns["", "history"].values if ("", "history") in self.columns else ""
 
     @property
-    def findings(self):
+    def findings(self) -> list[Finding]:
         """What the tools found poor in it: a list of Finding."""
         lines = self.columns["", "findings"].values if ("", "findings") in self.columns else ""
         return [Finding.of_line(line) for line in lines.splitlines() if line.count("\t") == 11]
@@ -246,7 +249,7 @@ class Frame:
             layers.append(f"{layer} ({rows.get('v', 0)} vertices, {rows.get('f', 0)} faces)")
         return f"<mr.Frame {self.name!r}: {', '.join(layers) or 'empty'}>"
 
-    def put(self, layer, name, values, element=None):
+    def put(self, layer: str, name: str, values: Any, element: str | None = None) -> None:
         """Puts text, or rows of numbers: of vertices (element "v"), faces ("f") or neither ("-")."""
         if not all(isinstance(text, str) for text in (layer, name, element or "")):
             raise StreamError(f"{layer}.{name}: layer, column and element are text")
@@ -274,7 +277,7 @@ class Frame:
             raise StreamError(f"{self.name}: {len(self.columns)} columns of 4096")
 
 
-def mesh(positions, triangles=None, name="mesh"):
+def mesh(positions: Any, triangles: Any = None, name: str = "mesh") -> Frame:
     """A frame of the layer mesh, or of points where there are no triangles: arrays of three numbers a row."""
     frame, layer = Frame(name), "points" if triangles is None else "mesh"
     columns = [("position", "v", positions, "fiu", np.float64), ("triangles", "f", triangles, "iu", np.uint32)]
@@ -395,7 +398,7 @@ def _frames(source):
         source.file.seek(source.at)
 
 
-def read(file="-"):
+def read(file: Any = "-") -> Iterator[Frame]:
     """The frames of a file: a path, "-" for standard input, or an object, which is read from where it stands."""
     if isinstance(file, (str, os.PathLike)) and file != "-":
         with open(file, "rb") as opened:
@@ -490,7 +493,7 @@ def writer(file="-", history=True):
         out.end()
 
 
-def write(file, frames, history=True):
+def write(file: Any, frames: Iterable[Frame], history: bool | str | None = True) -> None:
     """Writes frames; see writer()."""
     with writer(file, history) as out:
         for frame in frames:

@@ -18,19 +18,20 @@ import tempfile
 import threading
 import warnings
 from collections.abc import Iterable, Iterator
-from typing import Any, Dict, List, Sequence, TypeVar, Union
+from typing import Any, Callable, Sequence, TypeVar, Union
 
 import numpy as np
 
 from .stream import Error, Finding, Frame, StreamError, read, write
 
+Function = TypeVar("Function", bound=Callable[..., Any])
 Frames = TypeVar("Frames", Frame, Iterable[Frame])  # a frame gives a frame, an iterable of frames an iterator of them
 Path = Union[str, "os.PathLike[str]"]
 Stream = Union[Path, Frame, Iterable[Frame]]  # a file, or frames, which become one
 Number = Union[float, str]  # 0.5, "1%", "auto"
 Text = Union[str, Sequence[str], Stream]  # of several words the option is given for each
 Vector = Union[str, Sequence[float], np.ndarray]
-Report = Union[Dict[str, Any], str, List[Any]]  # of one frame, or a list, one for each
+Report = Any  # of one frame a dict, or words, of several a list of them
 
 WARNING = re.compile(r"(mr-\S+): (?:.*?: )?warning: .*?(?: \[(\S+)\])?")
 
@@ -206,7 +207,7 @@ def option(name, value, files):
     return [f"{name}={word(one, files)}" for one in (value if several else [value])]
 
 
-def tool(name):
+def tool(name: str) -> Callable[[Function], Function]:
     """Makes a function of its typed signature: operands by position, options by name, the result as its type says."""
     def decorate(typed):
         signature = inspect.signature(typed)
