@@ -6,7 +6,8 @@
 #include "render/gallery.h"
 
 static mr_render_opts opts = MR_RENDER_DEFAULTS;
-static const char *view = "quarter";
+static const char *view = "quarter", *at;
+static double middle[4];
 static int up = 1;
 static bool sheet;
 static size_t written;
@@ -18,6 +19,8 @@ static const cmd_opt table[] = {
 	{ 's', "size", CMD_SIZE, &opts.width, 16, 16384, "WxH", "pixels of a panel", NULL },
 	{ 0, "view", CMD_TEXT, &view, 0, 0, "DIR",
 	    "front, back, left, right, top, bottom, iso, quarter, or where the eye stands as x,y,z", NULL },
+	{ 0, "at", CMD_TEXT, &at, 0, 0, "X,Y,Z[,R]", "point looked at, and radius around it that is seen",
+	    NULL },
 	{ 0, "up", CMD_CHOICE, &up, 0, 0, "x|y|z", "axis that is upwards", NULL },
 	{ 0, "same", CMD_FLAG, &opts.same, 0, 0, NULL, "one camera and range for all frames", NULL },
 	{ 'c', "color", CMD_TEXT, &opts.color, 0, 0, "COLUMN", "colour by a column's values", NULL },
@@ -46,6 +49,22 @@ parse_view(mr_ctx *ctx)
 }
 
 static mr_status
+parse_at(mr_ctx *ctx)
+{
+	size_t numbers = 1;
+
+	if (!at)
+		return MR_OK;
+	for (const char *s = at; *s; s++)
+		numbers += *s == ',';
+	MR_TRY(cmd_parse_reals(ctx, "--at", at, numbers == 4 ? 4 : 3, middle));
+	if (middle[3] < 0)
+		return mr_fail(ctx, MR_EUSAGE, "--at: %g is no radius", middle[3]);
+	opts.at = middle;
+	return MR_OK;
+}
+
+static mr_status
 prepare(cmd *c)
 {
 	char *path;
@@ -59,6 +78,7 @@ prepare(cmd *c)
 	opts.ranged = cmd_given(c, "range");
 	kept = mr_mark_take(&c->keep);
 	MR_TRY(mr_outname(&c->ctx, c->operands[0], "", 0, &path));
+	MR_TRY(parse_at(&c->ctx));
 	return parse_view(&c->ctx);
 }
 

@@ -922,11 +922,12 @@ typedef struct mr_render_opts {
 	bool same;         /* a sheet is one shot; else each key frame begins one */
 	size_t columns;    /* of a sheet; 0: so that it is about 3 by 2 */
 	bool wire;         /* draw edges */
+	const double *at;  /* x, y, z of the middle, and the radius that is seen (0: as far as all); NULL: all */
 } mr_render_opts;
 
 #define MR_RENDER_DEFAULTS                                                                                   \
 	MR_DEFAULTS(800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, true, NULL, NULL, NULL, NULL, false, 0, 0,      \
-	    false, 0, false)
+	    false, 0, false, NULL)
 
 /* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */
 MR_API mr_status mr_render(

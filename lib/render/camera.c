@@ -63,6 +63,13 @@ mr_camera_aim(mr_camera *c, mr_box box)
 	c->distance = half > 0 ? 4 * half : 1;
 }
 
+void
+mr_camera_turn_to(mr_camera *c, mr_v3 at)
+{
+	c->distance += mr_dist(c->center, at);
+	c->center = at;
+}
+
 mr_seen
 mr_camera_see(const mr_camera *c, mr_v3 p)
 {

@@ -32,6 +32,9 @@ void mr_camera_box(const mr_camera *c, const mr_mesh *m, mr_box *box);
 /* Puts the centre into the middle of the box; the eye at four half diagonals. */
 void mr_camera_aim(mr_camera *c, mr_box box);
 
+/* Looks at another point, from as far behind it. */
+void mr_camera_turn_to(mr_camera *c, mr_v3 at);
+
 /* Grows the rectangle (x, y of the box) that they cover in the picture at a scale of 1. */
 void mr_camera_cover(const mr_camera *c, const mr_mesh *m, mr_box *covered);
 

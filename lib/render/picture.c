@@ -34,9 +34,15 @@ aim(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_rende
 	for (size_t i = first; i < first + count; i++)
 		mr_camera_box(&c, &g->panel[i].subject.mesh, &box);
 	mr_camera_aim(&c, box);
+	if (o->at)
+		mr_camera_turn_to(&c, mr_vec(o->at[0], o->at[1], o->at[2]));
 	for (size_t i = first; i < first + count; i++)
 		mr_camera_cover(&c, &g->panel[i].subject.mesh, &covered);
 	mr_camera_fit(&c, covered, margin, margin, w - 2 * margin, h - label - 2 * margin);
+	if (o->at && o->at[3] > 0)
+		c.scale = fmin(w, h - label) / 2 / o->at[3];
+	if (o->at)
+		c.x = w / 2, c.y = (h - label) / 2;
 	*camera = c;
 	return MR_OK;
 }
@@ -175,6 +181,8 @@ draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several
 	strip s = { image, edge, (double)o->width - edge, (double)o->height - 12 * unit, unit };
 	char name[256], size[64];
 
+	mr_image_fill(
+	    image, 0, (double)o->height - label_height(o), (double)o->width, label_height(o), PAPER);
 	snprintf(name, sizeof name, several ? "%s: %s" : "%s", p->frame, p->layer);
 	snprintf(size, sizeof size, "%zu %s", p->subject.mesh.nf ? p->subject.mesh.nf : p->subject.mesh.nv,
 	    p->subject.mesh.nf ? "triangles" : "points");
@@ -227,27 +235,28 @@ mr_shot_draw(
 	return MR_OK;
 }
 
-/* How a sheet is divided into cells of one frame each. */
-typedef struct cells {
-	size_t columns, rows, width, height; /* the last two in pixels */
-} cells;
-
-static cells
-divide_sheet(const mr_gallery *g, const mr_render_opts *o)
+/* Frames in a row of a sheet: for one of about 3 by 2, unless they are given. */
+static size_t
+sheet_columns(const mr_gallery *g, const mr_render_opts *o)
 {
-	cells s = { .width = o->width, .height = o->height, .columns = o->columns };
+	double frames = (double)g->frames, width = (double)(g->panels * o->width) / frames;
+	double columns = o->columns ? (double)o->columns
+	                            : rint(sqrt(1.5 * frames * (double)o->height / width));
 
-	for (size_t i = 0; i < g->frames; i++)
-		if (g->frame[i].count * o->width > s.width)
-			s.width = g->frame[i].count * o->width;
-	if (s.columns == 0) /* a sheet of about 3 by 2 */
-		s.columns = (size_t)fmax(
-		    1, rint(sqrt(1.5 * (double)(g->frames * s.height) / (double)s.width)));
-	if (s.columns > g->frames)
-		s.columns = g->frames;
-	/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) a sheet has a frame, so a column */
-	s.rows = (g->frames + s.columns - 1) / s.columns;
-	return s;
+	return (size_t)fmin(fmax(1, columns), frames);
+}
+
+/* Panels of the widest row. */
+static size_t
+sheet_width(const mr_gallery *g, size_t columns)
+{
+	size_t widest = 0, row = 0;
+
+	for (size_t i = 0; i < g->frames; i++) {
+		row = (i % columns ? row : 0) + g->frame[i].count;
+		widest = row > widest ? row : widest;
+	}
+	return widest;
 }
 
 /* Aims at the frames from `first` to the next shot. */
@@ -264,17 +273,17 @@ next_shot(mr_ctx *ctx, const mr_gallery *g, size_t first, const mr_render_opts *
 mr_status
 mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_render_opts *o, mr_image *image)
 {
-	cells s = divide_sheet(g, o);
+	size_t columns = sheet_columns(g, o), rows = (g->frames + columns - 1) / columns, x = 0;
 	mr_shot shot = { 0 };
 	mr_image r;
 
-	MR_TRY(mr_image_new(ctx, s.columns * s.width, s.rows * s.height, PAPER, &r));
-	for (size_t i = 0; i < g->frames; i++) {
-		size_t x = i % s.columns * s.width, y = i / s.columns * s.height;
+	MR_TRY(mr_image_new(ctx, sheet_width(g, columns) * o->width, rows * o->height, PAPER, &r));
+	for (size_t i = 0; i < g->frames; x += g->frame[i++].count * o->width) {
+		x = i % columns ? x : 0;
 		if (i == shot.first + shot.count)
 			MR_TRY(next_shot(ctx, g, i, o, &shot));
 		mr_progress(ctx, "drawing", (double)i / (double)g->frames);
-		MR_TRY(draw_frame(ctx, g, &shot, &g->frame[i], x, y, o, &r));
+		MR_TRY(draw_frame(ctx, g, &shot, &g->frame[i], x, i / columns * o->height, o, &r));
 	}
 	*image = r;
 	return MR_OK;

@@ -20,7 +20,11 @@ mr-render -s 100x90 -l base base.png <layers.mrs && size base.png
 for color in region source_face source_bary position; do
 	mr-render -s 100x90 --color $color -i layers.mrs $color.png && size $color.png
 done
+cat layers.mrs torus.mrs | mr-render -s 100x90 --sheet --columns 2 mixed.png && size mixed.png
 mr-render -s 60x60 --view 1,2,3 -i layers.mrs near.png
+mr-render -s 60x60 -i torus.mrs near.png; mr-render -s 60x60 --at 0,0,0,9 -i torus.mrs far.png
+cmp -s far.png near.png || echo 'another point, another picture'
+mr-render --at 1,2 -i torus.mrs none.png 2>err; echo "exit $?: $(head -n 1 err)"
 for view in front back left right top bottom iso 1,2,3; do
 	mr-render -s 60x60 --view $view --up z --wire -i layers.mrs view.png || echo "$view fails"
 done
