@@ -14,12 +14,8 @@ const linear = (byte) => (byte > 10 ? ((byte / 255 + 0.055) / 1.055) ** 2.4 : by
 /* The corners of a surface that differ, one of each vertex where they are alike, and which of them each corner is. */
 function distinct({ triangles, position }, attributes) {
 	const newest = new Int32Array(position.length / 3).fill(-1), before = [], corners = [];
-	const alike = (a, b) => attributes.every(({ array, itemSize: n }) => {
-		let same = true;
-		for (let c = 0; c < n; c++)
-			same = same && array[n * a + c] === array[n * b + c];
-		return same;
-	});
+	const alike = (a, b) => attributes.every(({ array, itemSize: n }) =>
+		array.subarray(n * a, n * a + n).every((x, c) => x === array[n * b + c]));
 	const index = Uint32Array.from(triangles, (v, k) => {
 		let at = newest[v];
 		while (at >= 0 && !alike(corners[at], k))
@@ -55,6 +51,12 @@ class Glb {
 		return this.put("bufferViews", { buffer: 0, byteOffset, byteLength });
 	}
 
+	/* n floats a row, or whole numbers; more: the rest of it. */
+	accessor(values, n, more) {
+		return this.put("accessors", { bufferView: this.view(values), componentType: n ? FLOAT : WHOLE,
+			type: n ? "VEC" + n : "SCALAR", count: values.length / (n || 1), ...more });
+	}
+
 	/* The attribute at these corners. */
 	attribute({ array, itemSize: n }, corners, of = (x) => x) {
 		const values = Float32Array.from({ length: n * corners.length }, (_, i) =>
@@ -62,13 +64,7 @@ class Glb {
 		const ends = (end, from) => Array.from({ length: n }, (_, c) =>
 			values.reduce((most, x, i) => (i % n === c ? end(most, x) : most), from));
 
-		return this.put("accessors", { bufferView: this.view(values), componentType: FLOAT, type: "VEC" + n,
-			count: corners.length, min: ends(Math.min, Infinity), max: ends(Math.max, -Infinity) });
-	}
-
-	indices(values) {
-		return this.put("accessors", { bufferView: this.view(values), componentType: WHOLE, type: "SCALAR",
-			count: values.length });
+		return this.accessor(values, n, { min: ends(Math.min, Infinity), max: ends(Math.max, -Infinity) });
 	}
 
 	material(map, color) {
@@ -93,10 +89,10 @@ class Glb {
 			[key, this.attribute(of, corners, how[key])]));
 		const primitives = (order ? drawn.geometry.groups : [{}]).map(({ start, count }, g) => {
 			if (!order)
-				return { attributes, indices: this.indices(index),
+				return { attributes, indices: this.accessor(index),
 					material: this.material(null, colored ? WHITE : PLAIN) };
 			const part = order.array.subarray(start, start + count), first = 3 * part[0];
-			return { attributes, indices: this.indices(part.map((k) => index[k])),
+			return { attributes, indices: this.accessor(part.map((k) => index[k])),
 				material: this.material(drawn.body.material[g].map,
 					Array.from(color.array.subarray(first, first + 3))) };
 		});

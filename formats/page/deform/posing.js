@@ -1,6 +1,7 @@
 /* posing.js -- handles to drag, and the line of commands below them. */
+import { library } from "../library/compile.js";
 import { regionColor, regionName } from "../draw/colors.js";
-import { Poser, posedBy } from "./poser.js";
+import { Poser, canSolve, posedBy, solve } from "./poser.js";
 import { HANDLE, poseOf } from "./handles.js";
 import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
 import { copy } from "../stream/text.js";
@@ -10,7 +11,7 @@ const FAR = 60; /* degrees beyond which mr-decode warns */
 
 export class Posing {
 	constructor(app) {
-		this.app = app;
+		Object.assign(this, { app, canSolve, solve });
 		this.handle = null;
 		this.moved = false; /* whether what is drawn is the deformer's */
 		this.listen();
@@ -47,8 +48,9 @@ export class Posing {
 		const columns = posedBy(frame);
 
 		if (!this.suits(frame, centre))
-			await this.begin(columns, centre);
-		const start = columns && (columnOf(frame, "handles", "transform") || columns.response);
+			await this.begin(frame, columns, centre);
+		const start = columns && (columnOf(frame, "handles", "transform") || columns.region ||
+			columns.response);
 		if (start !== this.start && this.deformer) {
 			this.pose = await poseOf(frame);
 			this.handle = this.pose.numbers.length && !frame.film ? this.pose.numbers[0] : null;
@@ -63,7 +65,7 @@ export class Posing {
 	suits(frame, centre) {
 		const columns = posedBy(frame);
 
-		return Boolean(columns && this.deformer && this.deformer.isOf(columns, centre));
+		return Boolean(columns && this.deformer && centre === this.centre && this.deformer.isOf(columns));
 	}
 
 	/* Layers that are drawn anew are posed again, unless the frame is another. */
@@ -72,16 +74,16 @@ export class Posing {
 		this.draw();
 	}
 
-	async begin(columns, centre) {
+	async begin(frame, columns, centre) {
 		cancelAnimationFrame(this.asked);
 		this.asked = 0;
-		if (this.deformer)
+		if (this.deformer && !this.deformer.columns.region) /* what was solved for, its frame keeps */
 			this.deformer.end();
 		this.moved = false;
 		this.start = this.next = this.pose = this.handle = this.deformer = null;
 		this.centre = centre;
 		if (columns)
-			this.deformer = await new Poser(columns).prepare(centre);
+			this.deformer = frame.solved || library.had(await new Poser(columns).prepare());
 		this.show();
 	}
 
@@ -109,7 +111,7 @@ export class Posing {
 	turn() {
 		this.asked = 0;
 		if (this.next && this.moved)
-			this.deformer.pose(this.next);
+			this.deformer.pose(this.next, this.centre);
 		this.next = null;
 		this.draw();
 		$("poseline").removeAttribute("aria-busy");

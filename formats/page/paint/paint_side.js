@@ -1,7 +1,6 @@
 /* paint_side.js -- the part of the side for painting: tools, regions with the numbers of their vertices, what can be
  * done. */
 import { regionColor, regionName } from "../draw/colors.js";
-import { canSolve } from "./solving.js";
 import { HANDLE } from "./regions.js";
 import { count } from "../stream/text.js";
 
@@ -54,7 +53,7 @@ function showButtons(painter) {
 	$("paint-undo").disabled = regions.past.length === 0;
 	$("paint-redo").disabled = regions.future.length === 0;
 	$("clear").disabled = painter.region === 0;
-	$("drag").disabled = !canSolve(painter.app.shown.frame, painter.work);
+	$("drag").disabled = !painter.app.posing.canSolve(painter.app.shown.frame, painter.work);
 	document.querySelector("#tools [value=part]").hidden = !painter.layer.triangles;
 }
 

@@ -4,7 +4,6 @@ import { Regions, FIXED, HANDLE } from "./regions.js";
 import { regionColor } from "../draw/colors.js";
 import { connectPaint, showPaint } from "./paint_side.js";
 import { columnOf, ownRegion } from "../stream/stream.js";
-import { solve } from "./solving.js";
 import { Strokes } from "./strokes.js";
 import { TakeAway } from "./takeaway.js";
 import { partOf } from "../mesh/topology.js";
@@ -156,14 +155,14 @@ export class Painter {
 
 	/* From painting to dragging: the regions, as they are now, become those that handles are of. */
 	async drag() {
-		const { work, app } = this, { frame } = app.shown, values = work.regions.values.slice();
+		const { work, app } = this, own = columnFor(work.name, { values: work.regions.values.slice() });
 
 		$("message").textContent = "Solving…";
 		await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-		const solved = await solve(frame, work);
+		const solved = await app.posing.solve(app.shown.frame, own);
 		$("unsolved").hidden = solved;
 		if (solved) {
-			work.column.origin = columnFor(work.name, { values });
+			work.column.origin = own;
 			await this.choose(null);
 		}
 		await app.change({ color: "region" });
