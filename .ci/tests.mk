@@ -4,6 +4,7 @@
 #	make check-page     the tests of the page of mr-view in Chromium, which it installs
 #	make check-cluster  the batch of examples/ on Slurm, installed for it, on virtual nodes; MODELS=N models
 #	make matrix         every tool on every model of DATA and on uglies; T=PATTERN some of them
+#	make compare-peers  20 scans and models from raw to a GLB with levels, beside Open3D: $(BUILD)/peers/index.html
 #	make coverage       what the tests run of lib, formats and cmd: lines and branches; T=PATTERN some of them
 #	make fuzz           readers and tools under libFuzzer; TIME=SECONDS each, T=PATTERN some, SEED=N the same again
 #	make bless          the command tests' outputs become the expected ones; T=PATTERN
@@ -21,6 +22,9 @@ check-cluster: $(TOOLS)
 
 matrix: $(TOOLS)
 	@mkdir -p $(BUILD)/matrix && cd $(BUILD)/matrix && $(RUN) $(CURDIR)/tests/matrix/run '$(T)'
+
+compare-peers:
+	@$(MAKE) --no-print-directory bench T=peers
 
 # In a build of its own, by gcc's counters, which every process adds to the same files.
 COVERED := $(BUILD)/coverage
@@ -48,4 +52,4 @@ $(BUILD)/fuzz/%: $(BUILD)/tests/fuzz/%.c.o $(BUILD)/libmr.a
 bless: $(TOOLS)
 	@$(RUN) tests/run --bless $(T)
 
-.PHONY: check-long check-page check-cluster coverage matrix fuzz bless
+.PHONY: check-long check-page check-cluster coverage matrix compare-peers fuzz bless
