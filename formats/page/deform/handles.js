@@ -1,6 +1,6 @@
 /* handles.js -- the handles of a frame, at rest or as the stream has posed them. */
 import { Pose } from "./pose.js";
-import { columnOf, ownRegion } from "../stream/stream.js";
+import { columnOf } from "../stream/stream.js";
 import { boxOf } from "../mesh/surface.js";
 
 export const HANDLE = 2; /* the region of handle 0 */
@@ -27,8 +27,8 @@ async function startOf(frame) {
 	return Array.from({ length: values.length / 12 }, (_, i) => Array.from(values.subarray(12 * i, 12 * i + 12)));
 }
 
-export async function poseOf(frame) {
-	const region = await ownRegion(frame, "mesh").values(),
+export async function poseOf(frame, regions) {
+	const region = await regions.values(),
 		position = await columnOf(frame, "mesh", "position").values();
 	const box = boxOf(position);
 

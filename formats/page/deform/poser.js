@@ -17,11 +17,13 @@ const FREE = 1, REST = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 const columnsOf = (frame, names) => Object.fromEntries(Object.entries(names).map(([key, name]) =>
 	[key, columnOf(frame, ...name.split(" "))]));
 
-/* The columns that the frame can be posed by; null: it cannot. */
+/* The columns that the frame can be posed by, or that were solved for on this level; null: it cannot. */
 export function posedBy(frame) {
-	const columns = columnsOf(frame, STREAM);
+	const columns = columnsOf(frame, STREAM), { solved } = frame;
 
-	return frame.solved ? frame.solved.columns : columns.response && columns.height ? columns : null;
+	if (solved && solved.columns.mesh === columnOf(frame, "mesh", "position"))
+		return solved.columns;
+	return columns.response && columns.height ? columns : null;
 }
 
 /* Whether the page can solve for what was painted (painter.js). */

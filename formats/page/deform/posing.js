@@ -3,7 +3,7 @@ import { library } from "../library/compile.js";
 import { regionColor, regionName } from "../draw/colors.js";
 import { Poser, canSolve, posedBy, solve } from "./poser.js";
 import { HANDLE, poseOf } from "./handles.js";
-import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
+import { columnOf, fileOf, ownRegion, streamOf } from "../stream/stream.js";
 import { copy } from "../stream/text.js";
 
 const $ = (id) => document.getElementById(id);
@@ -52,12 +52,13 @@ export class Posing {
 		const start = columns && (columnOf(frame, "handles", "transform") || columns.region ||
 			columns.response);
 		if (start !== this.start && this.deformer) {
-			this.pose = await poseOf(frame);
+			this.pose = await poseOf(frame, columns.region || ownRegion(frame, "mesh"));
 			this.handle = this.pose.numbers.length && !frame.film ? this.pose.numbers[0] : null;
 			this.apply();
 		}
 		this.start = start;
-		$("whole").textContent = "mr-cat " + streamOf(frame) + " | … | mr-export posed.ply";
+		const name = fileOf(frame), made = frame.solved ? "sh " + name + ".sh " + name + ".mrs && " : "";
+		$("whole").textContent = made + "mr-cat " + streamOf(frame) + " | … | mr-export posed.ply";
 		$("pose").hidden = !this.pose || this.pose.numbers.length === 0;
 	}
 
@@ -83,7 +84,7 @@ export class Posing {
 		this.start = this.next = this.pose = this.handle = this.deformer = null;
 		this.centre = centre;
 		if (columns)
-			this.deformer = frame.solved || library.had(await new Poser(columns).prepare());
+			this.deformer = columns.region ? frame.solved : library.had(await new Poser(columns).prepare());
 		this.show();
 	}
 
