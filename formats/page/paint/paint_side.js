@@ -53,7 +53,8 @@ function showButtons(painter) {
 	$("paint-undo").disabled = regions.past.length === 0;
 	$("paint-redo").disabled = regions.future.length === 0;
 	$("clear").disabled = painter.region === 0;
-	$("drag").disabled = !painter.app.posing.canSolve(painter.app.shown.frame, painter.work);
+	$("wanted").hidden = painter.app.posing.canSolve(painter.app.shown.frame, painter.work);
+	$("drag").disabled = !$("wanted").hidden;
 	document.querySelector("#tools [value=part]").hidden = !painter.layer.triangles;
 }
 
