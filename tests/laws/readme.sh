@@ -24,7 +24,7 @@ for page in README.md .github/CONTRIBUTING.md .github/CHANGES.md lib/README.md t
 	for link in $(grep -oE '\]\([^)#]*\)' "$file" | sed 's/](//; s/)$//' | grep -v '^http'); do
 		[ -e "$(dirname "$file")/$link" ] || { echo "$page names $link, which is not there"; fail=1; }
 	done
-	for target in $(grep -oE '(`|^)make [a-z][a-z0-9]*' "$file" | sed 's/.* //' | sort -u); do
+	for target in $(grep -oE '(`|^)make [a-z][a-z0-9-]*' "$file" | sed 's/.* //' | sort -u); do
 		grep -q "^$target:" "$TOP/Makefile" "$TOP"/.ci/*.mk ||
 			{ echo "$page names make $target, which is not there"; fail=1; }
 	done
