@@ -70,9 +70,9 @@ class Run:
         """source: the frames that it reads.  files: opened ones that arguments name as /dev/fd/N."""
         piped = isinstance(source, Run) and source.is_fresh()
         self.tool, self.files, self.source, self.faults = tool, files, source if piped else None, []
-        self.text = tempfile.TemporaryFile()
+        path, self.text = program(tool), tempfile.TemporaryFile()
         stdin = source.process.stdout if piped else subprocess.DEVNULL if source is None else subprocess.PIPE
-        self.process = subprocess.Popen([tool, *arguments], executable=program(tool), stdin=stdin, stderr=self.text,
+        self.process = subprocess.Popen([tool, *arguments], executable=path, stdin=stdin, stderr=self.text,
                                         stdout=subprocess.PIPE, pass_fds=[file.fileno() for file in files])
         self.frames = read(self.process.stdout)
         if piped:
@@ -93,9 +93,10 @@ class Run:
             raise Error(f"{self.tool}: another tool has its frames")
         try:
             return next(self.frames)
-        except (StopIteration, StreamError) as end:
-            self.finish()
-            raise end from None
+        except (StopIteration, StreamError) as error:
+            end = error
+        self.finish()
+        raise end
 
     def only(self):
         """Its one frame."""
