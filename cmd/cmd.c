@@ -35,7 +35,7 @@ struct cmd_state {
 	mr_side **sides; /* that the tool has opened */
 	size_t side_count, side_room;
 	place_guard places;
-	bool opens_stream; /* the file that is opened is that of the stream */
+	bool opens_stream; /* the stream's own file is opened */
 
 	mr_text figures;    /* of the frame at work, as they go into the line of --stats */
 	findings_book book; /* what was found */
@@ -136,7 +136,7 @@ writes_stdout(const cmd *c)
 	return !output || !strcmp(output, "-");
 }
 
-/* Tells the next tool of the pipe that this one has said why it fails: it need not say that it did. */
+/* Lets the next tool of the pipe know that this one has reported its failure, so that it stays silent. */
 static void
 pass_failure(cmd *c)
 {
@@ -149,7 +149,7 @@ pass_failure(cmd *c)
 		mr_writer_fail(&c->ctx, s->writer);
 }
 
-/* A wrong command line that a later frame shows, behind what is on stdout, is an error like others. */
+/* A wrong command line found at a later frame, after output has begun, is an error like others. */
 static _Noreturn void
 die(cmd *c, mr_status status)
 {
@@ -829,7 +829,7 @@ read_streams(cmd *c)
 	}
 }
 
-/* With -k: says what was left out; the exit code.  Where nothing is left, the command stops as without -k. */
+/* With -k: says what was left out; the exit code.  If nothing is left, the command stops as without -k. */
 static int
 account(cmd *c)
 {
@@ -848,8 +848,8 @@ account(cmd *c)
 	return EXIT_DATA;
 }
 
-/* Where stdin, stdout or stderr is closed the next file that is opened would take its number, and messages
- * would be written into it: something stands there that can neither be read nor written as it would be. */
+/* If stdin, stdout or stderr is closed, the next opened file would take its number and receive messages.  So
+ * each gets a file that can be neither read nor written. */
 static void
 fill_closed(void)
 {

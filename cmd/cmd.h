@@ -53,7 +53,7 @@ typedef struct cmd_tool {
 	bool names_output; /* a sink that names its output by an operand, and streams to read by others: it
 	                      has no -o */
 	bool sends;        /* `frame` sends by cmd_send itself */
-	bool fixed_layers; /* works on what it works on: it has no -l */
+	bool fixed_layers; /* the tool chooses its layers itself: it has no -l */
 	bool caches;       /* `frame` has c->cache */
 	bool judged;       /* what becomes of the surface is looked at: mr_judge */
 } cmd_tool;
@@ -121,7 +121,7 @@ void cmd_figure(cmd *c, const char *name, double value);
 /* The fields of a result as figures, in the order of the table; those that were not measured are left out. */
 void cmd_figures(cmd *c, const cmd_field *table, const void *result);
 
-/* Those of a surface and points. */
+/* The layers of a surface and of points. */
 void cmd_gaps(cmd *c, const mr_gaps *gaps);
 
 /* Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end. */

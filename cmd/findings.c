@@ -1,11 +1,11 @@
-/* The one table of what is said of findings. */
+/* The one table of the findings' sentences. */
 #include "findings.h"
 
 #include <math.h>
 
-/* In a sentence {n} is the count, {of} " of 12" where that is known, {s} the plural of what is counted,
- * {layer}, {what}, {pct} the value in percent, {limit}; {left}: what a repair leaves, of {value} and {limit};
- * {at} " at vertex 5 (x, y, z)". */
+/* In a sentence {n} is the count, {of} " of 12" if that is known, {s} the plural ending, {layer}, {what},
+ * {pct} the value in percent, {limit}; {left}: the rest after a repair, from {value} and {limit}; {at} " at
+ * vertex 5 (x, y, z)". */
 typedef struct entry {
 	verdict worst; /* what a frame with it is at most */
 	double
@@ -71,7 +71,7 @@ static const entry table[MR_FINDING_KINDS] = {
 	    "Another layer than the latest is taken." },
 };
 
-/* What is said behind the sentence of a failure. */
+/* Remedies that follow the sentence of a failure. */
 static const char *const remedies[MR_REMEDIES] = {
 	[MR_REPAIR] = "mr-import --repair mends that",
 	[MR_RESCALE] = "mr-transform --unit brings it to 1",

@@ -18,19 +18,19 @@ typedef enum verdict { VERDICT_GOOD, VERDICT_POOR, VERDICT_UNUSABLE } verdict;
 /* Adds one; of the same kind, layer and words the larger count stays. */
 void findings_add(findings *all, const mr_kept_finding *k);
 
-/* Adds those of the frame's column, if it has one. */
+/* Adds the findings of the frame's column, if it has one. */
 mr_status findings_read(mr_ctx *ctx, mr_frame *f, findings *all);
 
 /* The state of a command between frames. */
 typedef struct findings_book {
 	findings found;   /* of the frame at work */
 	findings known;   /* that this tool said since the last key */
-	findings carried; /* of all frames, for what is found after the last of them */
+	findings carried; /* of all frames, for findings after the last one */
 	double judged;    /* since then, of mr_judge: what has moved by less is not judged */
 	uint64_t key;     /* number of the last key frame */
 } findings_book;
 
-/* Says those of `found` that are news against `known`: each by one call, all that is lost by one. */
+/* Reports the findings in `found` that are new against `known`: one call each, one for all losses. */
 void findings_say(
     const findings *found, const findings *known, void (*say)(void *user, const char *text), void *user);
 
@@ -52,7 +52,7 @@ void findings_count(mr_text *line, const findings *found);
 verdict findings_verdict(const findings *all, const char **why);
 const char *verdict_name(verdict v);
 
-/* What helps, behind the sentence of a failure; NULL: nothing that is known. */
+/* The remedy that follows the sentence of a failure; NULL: none is known. */
 const char *findings_remedy(mr_remedy remedy);
 
 #endif

@@ -14,7 +14,7 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-/* With --merge: the FILEs behind the first, which the command layer reads and which gives the frames their
+/* With --merge: the FILEs after the first, which the command layer reads and which gives the frames their
  * names. */
 static mr_side *sides;
 static size_t side_count;
@@ -23,7 +23,7 @@ static size_t side_count;
 static mr_frame **kept;
 static size_t kept_count, kept_room;
 
-/* Takes the operands behind the first away from the command layer. */
+/* Takes the operands after the first away from the command layer. */
 static mr_status
 open_sides(cmd *c)
 {

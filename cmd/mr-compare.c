@@ -53,7 +53,7 @@ open_other(cmd *c)
 	return cmd_side(c, c->operands[n - 1], &other);
 }
 
-/* Of one frame: two of its layers. */
+/* Two layers of one frame. */
 static mr_status
 choose_two(cmd *c, mr_frame *f, const char *first, const char **a, const char **b)
 {
@@ -74,7 +74,7 @@ choose_two(cmd *c, mr_frame *f, const char *first, const char **a, const char **
 	return mr_layer_choose(&c->ctx, f, layer_b, NULL, b);
 }
 
-/* Of each frame the result; of the second the layer of the same name, if it has it. */
+/* The result layer of each frame; of the second the layer of the same name, if there is one. */
 static mr_status
 choose_results(cmd *c, mr_frame *f, mr_frame *second, const char *first, const char **a, const char **b)
 {

@@ -72,7 +72,7 @@ look_at_length(cmd *c, mr_frame *f, size_t length)
 }
 
 /* The column handles.frames says how many deltas of a sequence follow its key: so one mr-pose makes the
- * sequence, and those behind it pose the frames that come. */
+ * sequence, and later ones pose the frames that come. */
 static mr_status
 pose_frame(cmd *c, mr_frame *f)
 {

@@ -65,8 +65,8 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 	return MR_OK;
 }
 
-/* A number; where `relative` is not NULL also hundredths, with a % behind it, and where the metavar offers it
- * "auto", which is -1. */
+/* A number; if `relative` is not NULL also in percent, with a % after it; "auto" is -1 if the metavar offers
+ * it. */
 static mr_status
 parse_real(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text, bool *relative)
 {
@@ -155,7 +155,7 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 		return MR_OK;
 	case CMD_LENGTH:
 		return parse_real(
-		    ctx, o, what, text, (bool *)(void *)((double *)o->value + 1)); /* behind it */
+		    ctx, o, what, text, (bool *)(void *)((double *)o->value + 1)); /* after it */
 	case CMD_SHARE:
 		return parse_real(ctx, o, what, text, &relative);
 	case CMD_VECTOR: {
@@ -225,7 +225,7 @@ typedef struct parser {
 	cmd_args *args;
 } parser;
 
-/* Of the options that tools share, the layer alone changes the result. */
+/* Only the layer changes the result, among the shared options. */
 static bool
 changes_result(const cmd_opt *o, int table)
 {

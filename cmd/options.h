@@ -14,7 +14,7 @@ typedef enum cmd_kind {
 	CMD_COUNT,  /* size_t in [min, max] */
 	CMD_CHOICE, /* int: the index of the argument in `metavar`, "implicit|explicit|taubin" */
 	CMD_TEXT,   /* const char * */
-	CMD_LENGTH, /* a double, and behind it a bool: a number; or, with %, a share of the diagonal */
+	CMD_LENGTH, /* a double, followed by a bool: a number; or, with %, a share of the diagonal */
 	CMD_VECTOR, /* mr_v3: three numbers x,y,z */
 	CMD_SIZE,   /* two size_t: WxH, both in [min, max] */
 	CMD_RANGE,  /* two doubles: LOW,HIGH, of which the second is greater */
@@ -40,7 +40,7 @@ typedef struct cmd_opt {
 	    0 * sizeof(char[offsetof(type, name##_relative) == offsetof(type, name) + sizeof(double) ? 1     \
 												     : -1]))
 
-/* What stood on a command line: pointers into argv. */
+/* The words of a command line: pointers into argv. */
 typedef struct cmd_args {
 	char **operands;
 	size_t operand_count;

@@ -23,8 +23,7 @@ place_is(int fd, const char *name)
 	       !is_device(&x);
 }
 
-/* Two names of a file: what is there, and its place, in which there may be nothing yet; empty where there is
- * none. */
+/* Two names of a file: the file itself, and its place, which may not exist yet; empty if there is none. */
 typedef struct keys {
 	const char *there, *place;
 } keys;
@@ -59,7 +58,7 @@ place_guard_free(place_guard *g)
 
 typedef enum content { NOTHING, STREAM, OTHER } content;
 
-/* What a regular file is; NOTHING: empty, not there, or not to be read. */
+/* The kind of a regular file; NOTHING: empty, not there, or not to be read. */
 static content
 content_of(const char *path)
 {

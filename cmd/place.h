@@ -1,4 +1,4 @@
-/* place.h -- whether names lead to one file, and what is there. Layer rule: cmd. */
+/* place.h -- whether names lead to one file, and what kind it is.  Layer rule: cmd. */
 #ifndef PLACE_H
 #define PLACE_H
 
@@ -17,7 +17,7 @@ bool place_is(int fd, const char *name);
 /* Whether there is a file with the name of a model that is no stream. */
 bool place_is_model(const char *path);
 
-/* What a command does with a file. */
+/* A command's use of a file. */
 typedef enum place_use { PLACE_READ, PLACE_WRITE, PLACE_STREAM /* a stream is written */ } place_use;
 
 /* MR_EUSAGE where a stream, or the text that `option` asks for, would take the name of a model. */
@@ -34,7 +34,7 @@ typedef struct place_guard {
 void place_guard_free(place_guard *g);
 
 /* MR_EUSAGE where a file is to be written that is read, or written already, or read that is written; or where
- * a stream would take the place of anything else, or anything else that of a stream. */
+ * a stream and another kind of file would overwrite each other. */
 mr_status place_claim(mr_ctx *ctx, place_guard *g, const char *path, place_use use) MR_WARN_UNUSED;
 
 #endif

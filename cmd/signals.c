@@ -6,7 +6,7 @@
 
 enum { LEFTOVERS = 8 };
 
-/* What a signal leaves behind unless it is removed, NULL: nothing. */
+/* The file that a signal must remove; NULL: none. */
 static const char *volatile leftover[LEFTOVERS];
 
 static char cut[256]; /* the sentence of a file that is shorter than it was */
@@ -41,7 +41,7 @@ say_cut(int signal_number, siginfo_t *info, void *context)
 	raise(signal_number);
 }
 
-/* What is ignored, as under nohup, stays so. */
+/* Signals that are ignored, as under nohup, stay ignored. */
 static void
 tidy_up_on(int signal_number)
 {

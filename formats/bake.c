@@ -124,7 +124,8 @@ find_displaced(mr_ctx *ctx, mr_frame *f, mr_bake_target *t)
 	return mr_layer_put(ctx, f, "control", "normal", d.normal, t->m.nv);
 }
 
-/* The normals that the target is shaded with: its own, else those of its faces around, which it gets. */
+/* The normals that the target is shaded with: its own, else the means of its faces' normals, which it
+ * gets. */
 static mr_status
 find_normals(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m, mr_bake_target *t)
 {

@@ -31,7 +31,7 @@ keep_sizes(mr_builder *b)
 	b->plain = false;
 }
 
-/* The places of n corners behind those there are, of which the first had none. */
+/* The places of n more corners; the first had none so far. */
 static void
 keep_places(mr_builder *b, uint32_t **places, size_t *room, const uint32_t *new, size_t n)
 {
@@ -154,7 +154,7 @@ start_marks(mr_builder *b, mr_marking what)
 	b->plain = false;
 }
 
-/* The name without blanks around it; where nothing is left, that of faces without a mark. */
+/* The name without blanks around it; if nothing is left, the name of faces without a mark. */
 static mr_lines
 bare_name(const mr_builder *b, mr_marking what, const char *name, size_t bytes)
 {
@@ -283,7 +283,7 @@ narrow(mr_ctx *ctx, const double *x, size_t n, mr_shape *shape)
 	return byte;
 }
 
-/* Those of triangles where faces are of several: `face` of each. */
+/* The values of triangles where faces have several: `face` of each. */
 static void
 put_properties(mr_builder *b, const uint32_t *face)
 {
@@ -389,8 +389,8 @@ mr_number_rows(
 	*count = used;
 }
 
-/* The values of vertices, where those of all the corners of each are the same to the bit and no corner is
- * without; else NULL.  Vertices of no face get zeros. */
+/* The values of vertices if all corners of each vertex have the same value, to the bit; else NULL.  Vertices
+ * of no face get zeros. */
 static const double *
 of_vertices(mr_builder *b, size_t width, const double *corner, size_t *seams)
 {
@@ -416,7 +416,7 @@ of_vertices(mr_builder *b, size_t width, const double *corner, size_t *seams)
 	return whole && *seams == 0 ? value : NULL;
 }
 
-/* The values of corners that stand at `place` of a list: as those of vertices, or else of corners. */
+/* The values of corners that stand at `place` of a list: as values of vertices, or else of corners. */
 static void
 put_values(mr_builder *b, const uint32_t *place, size_t width, const double *list, double none,
     const double **vertex, const double **corner, size_t *seams)
@@ -431,7 +431,7 @@ put_values(mr_builder *b, const uint32_t *place, size_t width, const double *lis
 	*corner = *vertex ? NULL : x;
 }
 
-/* Texture coordinates of corners go before those of vertices. */
+/* Texture coordinates of corners have precedence over vertices' own. */
 static void
 put_texcoords(mr_builder *b, const uint32_t *place)
 {

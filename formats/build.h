@@ -6,7 +6,7 @@
 #include "base/name_table.h"
 #include "formats/formats.h"
 
-/* What faces are marked with: each has the mark at hand when it comes. */
+/* The marks of faces: each face gets the current mark. */
 typedef enum mr_marking { MR_GROUP, MR_OBJECT, MR_MATERIAL, MR_SMOOTHING, MR_MARKINGS } mr_marking;
 
 typedef struct mr_marks {
@@ -59,8 +59,8 @@ void mr_build_library(mr_builder *b, const char *name, size_t bytes);
 /* The faces to come are of this smoothing group. */
 void mr_build_smoothing(mr_builder *b, uint32_t group);
 
-/* A property under its name, of a type of PLY; those of vertices come before those of faces.  Its number,
- * from 1. Its values come row by row; with one that is not of a whole type all are doubles. */
+/* A property under its name, of a type of PLY; properties of vertices precede properties of faces.  Its
+ * number, from 1.  Its values come row by row; with one that is not of a whole type all are doubles. */
 size_t mr_build_property(mr_builder *b, const char *name, const char *type, char element);
 void mr_build_value(mr_builder *b, size_t number, size_t row, double x);
 
@@ -73,12 +73,12 @@ bool mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what) MR_WARN_UN
 /* Normals that are not finite become zero, which is none, and are reported.  False where all are. */
 bool mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n) MR_WARN_UNUSED;
 
-/* Values of colours.  Where their type does not say what is full, those of the whole file do: 1, where none
- * is above it, or not far and one is no whole number; else 255; else 65535. */
+/* Values of colours.  If their type does not define full intensity, the values of the whole file do: 1 if
+ * none is above it, or not far and one is no whole number; else 255; else 65535. */
 typedef struct mr_shades {
 	double most, full; /* of those that were seen; what becomes a byte of 255 */
 	bool broken;       /* one is no whole number */
-	size_t rounded;    /* clipped, or not told by the byte */
+	size_t rounded;    /* clipped, or not exact in a byte */
 } mr_shades;
 
 static inline void
@@ -88,11 +88,11 @@ mr_shade_see(mr_shades *s, double x)
 	s->broken = s->broken || x > floor(x); /* which no NaN is */
 }
 
-/* What is full, by all that was seen. */
+/* The value of full intensity, by all values seen. */
 double mr_shade_full(const mr_shades *s);
 
-/* Colours are bytes: what is less than one of 1000 parts beyond full, or of a number off the byte, is not
- * lost; of 16 bits every one is. */
+/* Colours are bytes.  Values less than 1/1000 beyond full, or off the byte, count as exact; every rounded
+ * value of 16 bits is reported. */
 static inline unsigned char
 mr_shade_byte(mr_shades *s, double x)
 {
@@ -107,7 +107,7 @@ mr_shade_byte(mr_shades *s, double x)
 /* Reports those that were rounded or clipped, and where next to nothing is left of them. */
 void mr_shades_said(mr_ctx *ctx, const mr_shades *s);
 
-/* The model; reports what it could not keep. */
+/* The model; reports its losses. */
 mr_status mr_build_finish(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
 
 /* True where a triangle was added without looking further: the usual case, kept short. */

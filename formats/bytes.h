@@ -38,7 +38,7 @@ mr_is_gzip(const unsigned char *data, size_t size)
 	return size >= 3 && data[0] == 0x1f && data[1] == 0x8b && data[2] == 8;
 }
 
-/* Where a writer puts its bytes.  The first failure is kept and reported by mr_sink_close. */
+/* The destination of a writer's bytes.  The first failure is kept and reported by mr_sink_close. */
 typedef struct mr_sink {
 	mr_ctx *ctx;
 	const char *path; /* as named by the user */
@@ -76,7 +76,7 @@ void mr_print(mr_sink *s, const char *format, ...) MR_PRINTF(2, 3);
 typedef void mr_row(mr_sink *s, const void *arg, size_t i);
 void mr_put_each(mr_sink *s, size_t n, mr_row *row, const void *arg);
 
-/* A place for up to MR_SINK_ROOM bytes; mr_sink_fill tells where they ended. */
+/* A place for up to MR_SINK_ROOM bytes; mr_sink_fill sets their end. */
 static inline char *
 mr_sink_room(mr_sink *s)
 {

@@ -57,7 +57,7 @@ mr_suffix_is_text(const char *path)
 	return ends_in(path, n, ".txt") || ends_in(path, n, ".csv") || ends_in(path, n, ".asc");
 }
 
-/* What a per cent and the letters behind it stand for; false where that is nothing. */
+/* The character that a per cent and the letters after it stand for; false if they stand for none. */
 static bool
 put_part(mr_text *name, const char **at, const char *frame, uint64_t number)
 {

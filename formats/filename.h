@@ -16,8 +16,8 @@ mr_status mr_outname_once(
 /* True where names differ from frame to frame. */
 bool mr_outname_varies(const char *pattern);
 
-/* True where a file of that kind may be written there: a name that ends so, "-", or what is there and is no
- * file.  No model is overwritten so. */
+/* True where a file of that kind may be written there: a name that ends so, "-", or something that exists and
+ * is no file.  So no model is overwritten. */
 bool mr_outname_suits(const char *path, const char *suffix);
 
 /* The last part of a path: empty where that ends in a slash. */

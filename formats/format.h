@@ -16,8 +16,8 @@ typedef mr_status mr_write_model(mr_sink *s, const mr_model *m);
 
 typedef struct mr_file_format {
 	const char *name;
-	bool binary;       /* what is written is not for a terminal */
-	const char *magic; /* what it begins with behind blanks, a bar between; NULL: sniff tells */
+	bool binary;       /* the output is not for a terminal */
+	const char *magic; /* its first bytes after blanks, a bar between; NULL: sniff decides */
 	mr_sniff *sniff;   /* NULL: by magic, name or suffix only */
 	mr_read_model *read;
 	mr_write_model *write;                                       /* NULL: read only */

@@ -173,7 +173,7 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 		if (knows(&formats[i], data, size))
 			found = &formats[i];
 	if (!found)
-		found = by_suffix(path); /* whose reader says what is wrong */
+		found = by_suffix(path); /* whose reader reports the error */
 	if (!found && size >= MR_MAGIC_BYTES && !memcmp(data, MR_MAGIC, MR_MAGIC_BYTES))
 		return mr_fail(ctx, MR_EFORMAT, "this is a stream already, for the tools behind mr-import");
 	if (!found)

@@ -199,7 +199,7 @@ mr_gltf_name(const json_t *thing)
 
 /* ---- buffers ---- */
 
-/* The six bits of a digit of base 64 (RFC 4648); 64 for what is none. */
+/* The six bits of a digit of base 64 (RFC 4648); 64 for other characters. */
 static unsigned
 digit64(char c)
 {
@@ -477,7 +477,7 @@ component(const unsigned char *p, size_t kind)
 	return mr_load_number(p, "IUIU?UF"[kind - 5120], kind_bytes(kind), false);
 }
 
-/* What a normalised component of 1 is stored as. */
+/* The number that stores a normalised component of 1. */
 static double
 whole_of(const mr_accessor *a)
 {

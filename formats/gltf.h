@@ -86,7 +86,7 @@ typedef struct mr_gltf_looks {
 	struct mr_material *look; /* of each material */
 	mr_gltf_placing *placing;
 	bool said;     /* of one more is said than a name */
-	mr_file *file; /* PNG and JPEG, as many as the document has images, and one behind them */
+	mr_file *file; /* PNG and JPEG, as many as the document has images, and one more */
 	size_t files;
 	bool *seen;         /* of each image */
 	size_t left, plain; /* images, and looks of materials, that are left out */

@@ -1,5 +1,5 @@
 /* gltf_meshopt.h -- EXT_meshopt_compression, which meshoptimizer packs and unpacks.  Layer rule: formats;
- * meshoptimizer only behind here. */
+ * only this file includes meshoptimizer. */
 #ifndef MR_GLTF_MESHOPT_H
 #define MR_GLTF_MESHOPT_H
 

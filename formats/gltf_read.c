@@ -80,7 +80,7 @@ typedef struct walk {
 	const mr_gltf *g;
 	size_t nodes;
 	bool *shown;
-	mr_affine *map; /* of those that are shown: of what they hang from, until the walk comes to them */
+	mr_affine *map; /* of the shown nodes: of their parent, until the walk reaches them */
 	size_t *left;   /* to come to */
 	size_t count;
 	size_t room; /* of instances */
@@ -331,8 +331,7 @@ has_texcoords_of(const part *p, const part *q)
 	       !memcmp(&p->placing, &q->placing, sizeof p->placing);
 }
 
-/* Primitives of one place in space share vertices, as those of a mesh with several materials, if these have
- * the same texture coordinates. */
+/* Primitives of one mesh with several materials share vertices if they have the same texture coordinates. */
 static bool
 shares_vertices(const reader *r, const part *p, const part *before)
 {
@@ -453,7 +452,7 @@ read_vertices(reader *r)
 
 /* ---- vertices as the model has them ---- */
 
-/* Joins the places of each mesh, from part i on; *end: the part behind it. */
+/* Joins the places of each mesh, from part i on; *end: the part after it. */
 static void
 join_mesh(reader *r, size_t i, size_t *end)
 {
@@ -625,7 +624,7 @@ read_faces(reader *r, const part *p)
 	return MR_OK;
 }
 
-/* ---- what is left out ---- */
+/* ---- losses ---- */
 
 static void
 say_left(const reader *r)

@@ -1,11 +1,11 @@
-/* Vertices of a GLB: which there are, what they have, and what poses do to them. */
+/* Vertices of a GLB: their order, their attributes and their poses. */
 #include "formats/gltf_writer.h"
 
 enum { FRAMES_A_SECOND = 24 };
 
 /* ---- which there are ---- */
 
-/* Normals where the model has none, as mr-render shows them: those of corners only at creases. */
+/* Normals for a model without any, as mr-render shows them: corners have their own only at creases. */
 static void
 make_normals(mr_ctx *ctx, layer *l)
 {
@@ -65,7 +65,7 @@ keep_vertices(const mr_model *m, vertices *v)
 	v->count = m->nv;
 }
 
-/* The first distinct corner of a vertex is that vertex, the others come behind all. */
+/* The first distinct corner of a vertex is that vertex, the others come after all vertices. */
 static void
 number_vertices(const mr_model *m, const uint32_t *first, size_t distinct, uint32_t *place, vertices *v)
 {
@@ -276,7 +276,7 @@ put_positions(glb *w, layer *l)
 	put_bounds(w, l->position, l->x, l->v.count);
 }
 
-/* How far a pose moves them: the difference of what is stored, so that nothing is rounded twice. */
+/* How far a pose moves them: the difference of the stored numbers, so that nothing is rounded twice. */
 static size_t
 put_motion(glb *w, layer *l, const mr_v3 *p)
 {

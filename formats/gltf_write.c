@@ -82,8 +82,8 @@ filled(json_t *array)
 	return json_array_size(array) ? json_incref(array) : NULL;
 }
 
-/* Every view begins at a multiple of four bytes.  Rows of vertices have their stride named where the numbers
- * in them do not tell it. */
+/* Every view begins at a multiple of four bytes.  Rows of vertices name their stride if it does not follow
+ * from their type. */
 size_t
 mr_glb_new_view(glb *w, size_t count, size_t stride, size_t target, mr_view_kind kind, char **to)
 {
@@ -215,7 +215,7 @@ shows(glb *w, size_t texture)
 	return mr_glb_made(w, is, is ? json_pack("{s:I}", "index", number(texture)) : NULL);
 }
 
-/* What says nothing else is of metal to the format, and seen from one side. */
+/* The format's default is metal, seen from one side. */
 static json_t *
 new_material(glb *w, const mr_material *look, const char *name, size_t bytes, size_t texture, size_t normals)
 {
@@ -330,7 +330,7 @@ put_node(glb *w, const layer *l, const char *name, json_t *primitives)
 			number(node), "path", "weights"));
 }
 
-/* The layer's name, and behind it the object's. */
+/* The layer's name, followed by the object's. */
 static char *
 object_name(glb *w, const layer *l, uint32_t object)
 {
@@ -359,7 +359,7 @@ mr_glb_run(const layer *l, size_t first)
 	return end;
 }
 
-/* The primitives of one object, from face *at in the order on, which goes behind them. */
+/* The primitives of one object, from face *at in the order on; *at moves past them. */
 static void
 put_object(glb *w, const layer *l, size_t *at)
 {
@@ -419,7 +419,7 @@ put_layer(glb *w, layer *l)
 
 /* ---- the file ---- */
 
-/* The name of a node where there are several to be told apart: of the frame, of the layer, or of both. */
+/* The name of a node, by frame, layer or both, whichever distinguish it. */
 static const char *
 node_name(mr_ctx *ctx, const mr_scene *scene, const mr_scene_node *n)
 {
@@ -441,8 +441,8 @@ need_extension(glb *w, const char *name)
 	mr_glb_push(w, "extensionsRequired", json_string(name));
 }
 
-/* Levels of detail (MSFT_lod): nodes of later frames are lesser ones of those of the first, in their order.
- */
+/* Levels of detail (MSFT_lod): nodes of later frames are coarser levels of the first frame's nodes, in
+ * order. */
 static mr_status
 put_levels(glb *w, size_t nodes, size_t first)
 {
@@ -465,8 +465,7 @@ put_levels(glb *w, size_t nodes, size_t first)
 	return MR_OK;
 }
 
-/* All nodes stand beside each other in one scene, or those of the first frame, of which the others are
- * levels. */
+/* One scene with all nodes side by side, or with the first frame's nodes, of which the others are levels. */
 static mr_status
 put_scene(glb *w)
 {
@@ -481,7 +480,7 @@ put_scene(glb *w)
 	return shown < nodes ? put_levels(w, nodes, shown) : MR_OK;
 }
 
-/* The bytes; where they are packed, behind them what they unpack to. */
+/* The bytes; packed ones are followed by a place for the unpacked ones. */
 static mr_status
 put_buffers(glb *w)
 {

@@ -15,7 +15,7 @@ typedef struct mr_gltf_view {
 	mr_view_kind kind;
 } mr_gltf_view;
 
-/* The document on its way.  What jansson has no memory for is noted, and told of in the end. */
+/* The document on its way.  A failed allocation of jansson's is noted and reported at the end. */
 typedef struct glb {
 	mr_sink *s;
 	mr_ctx *ctx;
@@ -34,7 +34,7 @@ typedef struct glb {
 	size_t views, view_room;
 } glb;
 
-/* The vertices of a model in their order, behind them those that a seam of corners repeats. */
+/* The vertices of a model in their order, followed by those that a seam repeats. */
 typedef struct vertices {
 	size_t count;
 	uint32_t *vertex,
@@ -49,12 +49,12 @@ typedef struct face_names {
 	uint32_t *of; /* nf */
 } face_names;
 
-/* A layer on its way: accessors of its vertices, MR_UNKNOWN of what they have not. */
+/* A layer on its way: accessors of its vertices, MR_UNKNOWN: missing. */
 typedef struct layer {
 	const mr_scene_node *node;
 	mr_model model;   /* the node's, with the normals that are written */
 	mr_creases *made; /* where its normals are made; else NULL */
-	const char *name; /* of its nodes, before that of an object */
+	const char *name; /* prefix of its nodes' names, before an object's */
 	vertices v;
 	face_names object, material;
 	uint32_t *face;    /* nf, by object and material */
@@ -93,7 +93,7 @@ size_t mr_glb_append(glb *w, json_t *array, json_t *thing);
 size_t mr_glb_push(glb *w, const char *array, json_t *thing);
 
 /* A view of `count` rows of `stride` bytes, zero, to be filled from `to` on; its number.  target: MR_UNKNOWN
- * of what is no array of vertices or elements. */
+ * for other data than vertices or elements. */
 size_t mr_glb_new_view(glb *w, size_t count, size_t stride, size_t target, mr_view_kind kind, char **to);
 
 /* A view of `count` indices of n things. */

@@ -1,4 +1,5 @@
-/* image.h -- pictures, of colours and of heights, in and out; libjpeg behind jpeg.c, libpng behind png.c. */
+/* image.h -- pictures, of colours and of heights, in and out; only jpeg.c includes libjpeg, only png.c
+ * libpng. */
 #ifndef MR_FORMATS_IMAGE_H
 #define MR_FORMATS_IMAGE_H
 
@@ -13,7 +14,7 @@ bool mr_is_jpeg(const unsigned char *data, size_t size);
  * least for each 8 by 8 of them. */
 enum { MR_PNG_MOST = 8 * 1032, MR_PNG_GRAY_MOST = 1032 / 2, MR_JPEG_MOST = 8 * 64 };
 
-/* Reads a PNG, what is transparent over white, or a JPEG, into the arena.  MR_EFORMAT for another kind. */
+/* Reads a PNG, transparency over white, or a JPEG, into the arena.  MR_EFORMAT for another kind. */
 mr_status
 mr_image_decode(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image) MR_WARN_UNUSED;
 mr_status mr_image_read(mr_ctx *ctx, const mr_file *file, mr_image *image) MR_WARN_UNUSED;
@@ -30,12 +31,12 @@ mr_status mr_jpeg_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_i
  * "-", stdout, directly.  The same image gives the same bytes.  MR_EIO. */
 mr_status mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image);
 
-/* A word about a picture, and what it says. */
+/* A key about a picture, and its text. */
 typedef struct mr_png_text {
 	const char *key, *text;
 } mr_png_text;
 
-/* A picture of one number a pixel, and what is said of it. */
+/* A picture of one number a pixel, and its texts. */
 typedef struct mr_gray {
 	uint16_t *pixel; /* rows from the top, pixels from the left */
 	size_t width, height;

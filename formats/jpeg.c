@@ -25,8 +25,8 @@ on_error(j_common_ptr info)
 	longjmp(f->back, 1);
 }
 
-/* Some good pictures have bytes before a marker that say nothing: 1 to 20 of them, as cameras write them.
- * Where one bit of a picture was changed, 35 and more were left over. */
+/* Some good pictures have meaningless bytes before a marker: cameras write 1 to 20 of them.  A changed bit
+ * leaves over 35 and more. */
 static bool
 is_harmless(const struct jpeg_error_mgr *e)
 {
@@ -37,7 +37,7 @@ is_harmless(const struct jpeg_error_mgr *e)
 	       (e->msg_code == JWRN_EXTRANEOUS_DATA && e->msg_parm.i[0] <= PADDING);
 }
 
-/* libjpeg goes on behind damage, with grey for what is gone. */
+/* libjpeg continues after damage, with grey for missing pixels. */
 static void
 on_message(j_common_ptr info, int level)
 {

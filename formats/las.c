@@ -1,5 +1,5 @@
 /* LAS (ASPRS, LAS specification 1.4, 2019, and before): whole coordinates with scale and offset, 16-bit
- * colours; not LAZ.  What else a point has is a property, unless it is 0 for all: not told. */
+ * colours; not LAZ.  Other fields of points become properties, unless they are 0 for all. */
 #include "formats/format.h"
 
 enum { SHORTEST_HEADER = 227, FORMATS = 11 };
@@ -10,8 +10,8 @@ static const struct {
 } formats[FORMATS] = { { 20, 0 }, { 28, 0 }, { 26, 20 }, { 34, 28 }, { 57, 0 }, { 63, 28 }, { 30, 0 },
 	{ 36, 30 }, { 38, 30 }, { 59, 0 }, { 67, 30 } };
 
-/* What a point has besides: the types are PLY's, `bits` of the first byte from the lowest.  Formats below 6
- * and the others keep them elsewhere.  in: a bit for each format that has them. */
+/* The other fields of a point: the types are PLY's, `bits` of the first byte from the lowest.  Formats below
+ * 6 and the others keep them elsewhere.  in: a bit for each format that has them. */
 static const struct {
 	const char *name, *type;
 	unsigned in;
@@ -120,7 +120,7 @@ color_shift(const unsigned char *d, const las *l)
 	return 0;
 }
 
-/* Whether any point has another value than 0, as a field has that is not told. */
+/* Whether the field is not 0 for all points, and so becomes a property. */
 static bool
 is_told(const unsigned char *data, const las *l, size_t i)
 {
@@ -131,7 +131,7 @@ is_told(const unsigned char *data, const las *l, size_t i)
 	return k < l->points;
 }
 
-/* Columns of place and colour, then of the fields that are told. */
+/* Columns of place and colour, then of the fields that are not 0. */
 static mr_status
 add_columns(const unsigned char *data, const las *l, mr_rows *r, bool told[FIELDS])
 {

@@ -20,7 +20,7 @@ mr_status mr_map_put_range(mr_ctx *ctx, mr_frame *f, double low, double high) MR
 mr_status mr_map_check_name(mr_ctx *ctx, const char *name) MR_WARN_UNUSED;
 
 /* Gives nf faces of the layer the material of the map, and, where they are not NULL, texture coordinates;
- * reports what they replace. */
+ * reports replaced columns. */
 mr_status mr_map_put_material(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const double *uv,
     const char *name) MR_WARN_UNUSED;
 

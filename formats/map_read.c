@@ -3,7 +3,7 @@
 #include "formats/model.h"
 #include "formats/scan.h"
 
-/* What the picture says under a key: so many numbers, and nothing else. */
+/* The numbers of the picture's text under a key: so many, and nothing else. */
 static bool
 says(const mr_gray *g, const char *key, size_t n, double *x)
 {
@@ -26,7 +26,7 @@ unsaid(mr_ctx *ctx, const char *key, const char *option)
 	return mr_fail(ctx, MR_EFORMAT, "no text \"%s\" that mr-map wrote: give %s", key, option);
 }
 
-/* What the picture is of, by its texts where the options do not say. */
+/* The picture's meaning, by the options, else by its texts. */
 static mr_status
 understand(mr_ctx *ctx, const mr_gray *g, const mr_map_opts *o, double range[2], size_t *level)
 {
@@ -88,7 +88,7 @@ sample(const mr_gray *g, double u, double v, bool *between)
 	return (1 - t) * ((1 - s) * top[i] + s * top[right]) + t * ((1 - s) * bottom[i] + s * bottom[right]);
 }
 
-/* What the texels of a vertex, one in each triangle of control that it is on, have of it. */
+/* The values of a vertex's texels, one in each control triangle that it is on. */
 typedef struct gathered {
 	double sum, least, greatest;
 	uint32_t count;

@@ -32,7 +32,7 @@ height_of(const mapping *m, const mr_texel *t)
 	return m->height[t->v[0]] + m->height[t->v[1]] - m->height[t->v[2]];
 }
 
-/* Of what stands in the gutter, too. */
+/* The texels of the gutter, too. */
 static void
 find_range(mapping *m)
 {
@@ -57,7 +57,7 @@ quantised(const mapping *m, uint32_t v)
 	return q > 0 ? q < MR_MAP_WHITE ? q : MR_MAP_WHITE : 0;
 }
 
-/* The gutter from what is written of the triangle: then samples are linear to the bit. */
+/* Extrapolates the gutter from the written texels: then samples are linear to the bit. */
 static uint16_t
 gray_of(const mapping *m, const mr_texel *t)
 {
@@ -262,7 +262,7 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 		mr_lost(ctx, "base", 1, "the pose");
 	MR_TRY(write_files(ctx, &m, name, r));
 	MR_TRY(mr_map_put_material(ctx, f, "control", m.control.nf, mr_map_texcoords(ctx, &m.atlas), name));
-	/* Control's limit normals, among which those of the texels are interpolated. */
+	/* Control's limit normals, between which the texels' normals are interpolated. */
 	mr_frame_drop(f, "control", "corner_normal", 0);
 	MR_TRY(mr_layer_put(ctx, f, "control", "normal", m.domain.normal, m.control.nv));
 	MR_TRY(mr_map_put_range(ctx, f, m.low, m.high));

@@ -79,7 +79,7 @@ find_file(const finder *f, const char *name, size_t bytes)
 
 /* ---- statements ---- */
 
-/* Behind options only the last word is the picture's name. */
+/* After options only the last word is the picture's name. */
 static mr_file
 picture(finder *f, mr_scan *t)
 {
@@ -124,7 +124,7 @@ set_color(mr_scan *t, double color[3])
 	return n == 1 || n == 3;
 }
 
-/* What a statement says of a material; false where it lacks its numbers. */
+/* The value that a statement gives a material; false where it lacks its numbers. */
 static bool
 describe(finder *f, mr_material *m, mr_scan *t)
 {

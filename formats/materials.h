@@ -17,7 +17,7 @@ typedef struct mr_material {
 	mr_file normals;         /* likewise of norm or map_Kn */
 } mr_material;
 
-/* What nothing is said of: opaque, of no metal, and rough as most things are. */
+/* The default: opaque, not metal, and rough as most things are. */
 extern const mr_material mr_material_plain;
 
 /* The file that a path of the model's author leads to, as it stands where that is below the folder, or by its

@@ -11,7 +11,7 @@
 
 #include <float.h>
 
-/* What a model has of each vertex, or of each face, besides positions and triangles. */
+/* The columns of a model's vertices or faces, besides positions and triangles. */
 static const struct {
 	const char *name, *what;
 	size_t at; /* of the pointer in the model */
@@ -129,7 +129,7 @@ drop_faces(mr_model *m)
 	while (kept < m->properties && m->property[kept].shape.element == 'v')
 		kept++;
 	m->files = 0;
-	m->properties = kept; /* those of vertices come first */
+	m->properties = kept; /* columns of vertices come first */
 }
 
 /* ---- layers ---- */
@@ -144,7 +144,8 @@ column_name(char to[MR_COLUMN_MAX + 1], const char *prefix, const char *name)
 			*c = '_';
 }
 
-/* Whether no column and no part of one is called so, in this layer or by convention in that of a surface. */
+/* Whether the name is free: no column or part of one has it, in this layer or by convention in a
+ * surface's. */
 static bool
 is_free(const mr_frame *f, const char *layer, const char *name, char element)
 {
@@ -217,7 +218,7 @@ get_files(mr_ctx *ctx, mr_frame *f, mr_model *m)
 	return MR_OK;
 }
 
-/* What a column is called in files: as it was before put_properties gave it a similar name. */
+/* The name of a column in files: as it was before put_properties gave it a similar name. */
 static const char *
 name_of(const char *column)
 {
@@ -234,7 +235,7 @@ is_property(const mr_column *c, const char *layer, char element)
 	       c->shape.type != 't' && !mr_column_known(layer, c->name);
 }
 
-/* The columns of one component that are none by convention; those of vertices first. */
+/* The columns of one component that are none by convention; vertices' first. */
 static mr_status
 get_properties(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 {
@@ -319,7 +320,7 @@ are_rounded_floats(const mr_v3 *p, size_t n, double grain)
 static void
 judge_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
 {
-	const double fine = 1e-7;  /* of the diagonal, as of what is written in float32 */
+	const double fine = 1e-7;  /* of the diagonal, as numbers in float32 have */
 	const double rough = 1e-4; /* of which an edge may have a hundred: a tenth of one is some faces */
 	double grain = mr_box_grain(box), diagonal = mr_box_diagonal(box);
 	double of_floats = ldexp(grain, DBL_MANT_DIG - FLT_MANT_DIG);
@@ -405,7 +406,7 @@ is_of_model(const mr_column *c)
 	return is;
 }
 
-/* What mesh has and this layer of the same triangles has not; normals are turned with the surface. */
+/* Columns that mesh has and this layer of the same triangles lacks; normals turn with the surface. */
 static mr_status
 borrow(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *before, const mr_mesh *now)
 {
@@ -429,7 +430,7 @@ borrow(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *before, const
 	return MR_OK;
 }
 
-/* What mesh has and the layer, of other triangles, has not; polygons are none of it. */
+/* Columns that mesh has and the layer, of other triangles, lacks, except polygons. */
 static void
 lose_rest(mr_ctx *ctx, const mr_frame *f, const char *layer)
 {

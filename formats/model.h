@@ -13,8 +13,9 @@ mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mod
  */
 mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
-/* The same, as it is to be written: what the frame's mesh has on the same triangles and the layer has not is
- * added; what stays behind, of a mesh with other triangles, and creases, is reported with a key frame. */
+/* The same, ready to be written: columns of the frame's mesh with the same triangles are added where the
+ * layer lacks them; columns of a mesh with other triangles, and creases, are reported as lost with a key
+ * frame. */
 mr_status mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
 /* The texture coordinates of a corner, whose v runs upwards; NULL: none. */
@@ -64,7 +65,7 @@ typedef struct mr_scene {
 mr_status
 mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *layers) MR_WARN_UNUSED;
 
-/* Whether what is written there can hold several frames and layers. */
+/* Whether that format can hold several frames and layers. */
 bool mr_scene_suits(const char *path, const char *format);
 
 /* As mr_model_write, where mr_scene_suits. */

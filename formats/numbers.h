@@ -8,10 +8,10 @@
 extern "C" {
 #endif
 
-/* Returns the place behind the number that begins at p, or NULL where none does. */
+/* Returns the end of the number that begins at p, or NULL if none does. */
 const char *mr_real_read(const char *p, const char *end, double *x);
 
-/* Writes x and returns the place behind it; at most MR_REAL_MAX bytes, no NUL. */
+/* Writes x and returns its end; at most MR_REAL_MAX bytes, no NUL. */
 enum { MR_REAL_MAX = 32 };
 char *mr_real_write(char *to, double x);
 

@@ -1,6 +1,6 @@
 /* Wavefront OBJ.  Blocks of lines are read at once, then joined in order.  tinyobj reads faces, through
- * obj_shim, but those of plain indices, once their line is checked: it takes any word for an index.  v, vt
- * and vn lines, whose numbers must be exact, and names with blanks are read here. */
+ * obj_shim, except plain indices, once their line is checked: it takes any word for an index.  v, vt and vn
+ * lines, whose numbers must be exact, and names with blanks are read here. */
 #include "base/parallel.h"
 #include "formats/format.h"
 #include "formats/obj_shim.h"
@@ -176,7 +176,7 @@ resolve(int index, size_t so_far, size_t all, uint32_t *i)
 	return at >= 0 && (unsigned long long)at < all;
 }
 
-/* The place of a value that a corner names, which may stand behind it; MR_NONE where it names none. */
+/* The index of a value that a corner names, which may come later in the file; MR_NONE if it names none. */
 static uint32_t
 place_of(int index, size_t so_far, size_t all, size_t *odd)
 {
@@ -190,7 +190,7 @@ place_of(int index, size_t so_far, size_t all, size_t *odd)
 	return MR_NONE;
 }
 
-/* A face whose n corners are behind those of the faces before it. */
+/* Adds a face: the n corners after the last face's. */
 static void
 end_face(block *b, size_t n)
 {
@@ -377,8 +377,7 @@ one_line(block *b, mr_scan *line, kind k, bool *pass)
 	}
 }
 
-/* A line for tinyobj, which knows few blanks, and takes the next corner's index behind a slash with nothing
- * behind it. */
+/* A line for tinyobj, which knows few blanks, and after a bare slash takes the next corner's index. */
 static void
 hand_over(block *b, const mr_scan *line, const char **begin, const char **end)
 {
@@ -615,7 +614,7 @@ read_all(obj *o)
 
 /* ---- the model ---- */
 
-/* As many values as there are vertices, of which no corner names one, are those of the vertices. */
+/* As many values as vertices, none named by a corner, are values of the vertices. */
 static bool
 are_of_vertices(const obj *o, const uint32_t *place, size_t astray, size_t n)
 {

@@ -111,7 +111,7 @@ name_bytes(const marks *k, uint32_t mark)
 	return mark < k->names ? (size_t)(k->start[mark + 1] - k->start[mark]) - 1 : 0;
 }
 
-/* Writes the mark of face i if it differs from that of the face before; none before the first name. */
+/* Writes the mark of face i if it differs from the last face's; none before the first name. */
 static void
 put_mark(mr_sink *s, const faces *w, const marks *k, size_t i)
 {

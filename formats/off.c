@@ -9,7 +9,7 @@ typedef struct off {
 	mr_rows rows;
 	uint64_t nv, nf;
 	size_t face_colors; /* faces that have one */
-	size_t ignored;     /* numbers behind a vertex that the keyword does not announce */
+	size_t ignored;     /* numbers after a vertex that the keyword does not announce */
 	uint32_t *corner;
 	size_t corner_room;
 } off;

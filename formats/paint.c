@@ -99,7 +99,7 @@ wear_materials(
 	return MR_OK;
 }
 
-/* What the paint of a layer is made of. */
+/* The sources of a layer's paint. */
 static void
 take_serials(const mr_frame *f, const char *layer, uint64_t worn[4])
 {

@@ -48,7 +48,7 @@ field_names(pcd *f, mr_scan *line)
 	return MR_OK;
 }
 
-/* What a line says of each field: its SIZE, TYPE or COUNT. */
+/* The value of a line for each field: its SIZE, TYPE or COUNT. */
 static mr_status
 field_words(pcd *f, mr_scan *line, char what)
 {
@@ -83,7 +83,7 @@ data_kind(pcd *f, mr_scan *line)
 
 /* ---- columns ---- */
 
-/* What PLY calls a type that holds all values of a field. */
+/* PLY's name for a type that holds all values of a field. */
 static const char *
 type_of(const field *d)
 {
@@ -229,7 +229,7 @@ unpack(const unsigned char *from, size_t bytes, unsigned char *to, size_t size)
 		n += 2;
 		if (back > at || size - at < n)
 			return false;
-		for (; n > 0; n--, at++) /* what is copied may be what was just written */
+		for (; n > 0; n--, at++) /* the source may be the bytes just written */
 			to[at] = to[at - back];
 	}
 	return at == size;

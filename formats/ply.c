@@ -10,7 +10,7 @@ typedef struct type_name {
 	char kind; /* as of mr_load_number */
 } type_name;
 
-/* What a property of faces is to us. */
+/* The role of a face property. */
 typedef enum role { NONE, INDICES, UVS } role;
 
 typedef struct property {
@@ -168,7 +168,7 @@ header_format(ply *f, mr_scan *line, bool *seen)
 
 /* ---- which properties are kept, and as what ---- */
 
-/* What is full of a colour: bytes and 16 bits without sign say it. */
+/* Full intensity of a colour: unsigned types of 8 and 16 bits define it. */
 static double
 full_of(const element *e, const mr_rows *r, mr_role of)
 {
@@ -177,7 +177,7 @@ full_of(const element *e, const mr_rows *r, mr_role of)
 	return t <= UCHAR ? 255 : t == USHORT ? 65535 : 0;
 }
 
-/* Of vertices all are columns of rows; of faces, those that are nothing else. */
+/* All properties of vertices are columns of rows; of faces only properties without a role. */
 static void
 choose_vertex_properties(ply *f, const element *e)
 {
@@ -249,7 +249,7 @@ bytes_left(const ply *f)
 	return (size_t)(f->text.end - f->text.p);
 }
 
-/* Where the next value stands. */
+/* The place of the next value. */
 static const char *
 here(ply *f)
 {
@@ -269,7 +269,7 @@ next_value(ply *f, type t, double *x)
 	return MR_OK;
 }
 
-/* The length of a list, whose items are then known to be there as far as bytes can tell. */
+/* The length of a list, whose items then fit in the remaining bytes. */
 static mr_status
 next_length(ply *f, const property *p, size_t *n)
 {
@@ -469,7 +469,7 @@ read_row(ply *f, const element *e, uint64_t row)
 	return mr_scan_fail(&f->text, f->text.p, "more numbers in a line than element %s has", e->name);
 }
 
-/* Room for the rows of an element, which has what it needs. */
+/* Allocates the rows of an element whose properties are complete. */
 static mr_status
 begin_element(ply *f, const element *e)
 {
@@ -513,7 +513,7 @@ read_element(ply *f, const element *e)
 
 /* ---- the file ---- */
 
-/* What is neither a role's nor a number of a vertex or a face. */
+/* Properties that have no role and are no number of a vertex or a face. */
 static void
 lose_others(ply *f)
 {

@@ -88,7 +88,7 @@ put(mr_sink *s, const mr_model *m, bool text, char real)
 	mr_note_lost(s, m, "normal scanner color alpha texcoord corner_texcoord property faces");
 	w.part = MR_NEW(s->ctx, MR_PARTS + m->properties, mr_part);
 	mr_vertex_parts(m, w.part);
-	for (size_t i = 0; i < m->properties; i++) { /* those of vertices come first */
+	for (size_t i = 0; i < m->properties; i++) { /* properties of vertices come first */
 		w.part[MR_PARTS + i] = mr_property_part(&m->property[i]);
 		w.face_parts += m->property[i].shape.element == 'f';
 	}

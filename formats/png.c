@@ -41,7 +41,7 @@ flush_nothing(png_structp png)
 	(void)png;
 }
 
-/* What is written: rows of pixels as they are in memory, and texts. */
+/* The output: rows of pixels as they are in memory, and texts. */
 typedef struct picture {
 	const unsigned char *pixel;
 	size_t width, height, row; /* row: its bytes */

@@ -43,7 +43,7 @@ mr_rows_add_unnamed(mr_rows *r, mr_role first, size_t n)
 		mr_rows_add(r, (mr_role)(first + i), "", 0, NULL);
 }
 
-/* What columns make together: as many roles from the first on, of which `needed` must be there. */
+/* A group of columns: successive roles from the first on; `needed` of them must exist. */
 static const struct {
 	mr_role first;
 	size_t width, needed;
@@ -141,7 +141,7 @@ has_color(const double *c)
 	return isfinite(c[0] + c[1] + c[2]);
 }
 
-/* Looks at a colour.  Where their types do not say what is full, alpha says it of colours, too. */
+/* Looks at a colour.  If the type defines no full intensity, alpha decides it for colours, too. */
 static void
 see_color(mr_rows *r, const double *c, bool together)
 {

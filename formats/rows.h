@@ -29,7 +29,7 @@ typedef enum mr_role {
 /* The role of a name in files, in either case of letters. */
 mr_role mr_role_of(const char *name, size_t bytes);
 
-/* What columns make together: position, normal, colour, texture coordinates, the scanner's place. */
+/* Groups of columns: position, normal, colour, texture coordinates, the scanner's place. */
 enum { MR_PARTS = 5 };
 
 typedef struct mr_rows_column {
@@ -47,7 +47,7 @@ typedef struct mr_rows {
 	double *part[MR_PARTS]; /* of all rows: NaN of an alpha, and in a sparse one of a colour, that is not
 	                           there */
 	size_t room[MR_PARTS];
-	mr_shades shades[2]; /* of colours, of alpha; full: 0 where the values tell */
+	mr_shades shades[2]; /* of colours, of alpha; full: 0 where the values decide */
 	bool sparse;         /* rows may be without a colour, NaN: those are white */
 } mr_rows;
 
@@ -71,7 +71,7 @@ void mr_rows_end(mr_rows *r);
 
 /* ---- written ---- */
 
-/* Columns of what is written, side by side in memory. */
+/* Output columns, side by side in memory. */
 typedef struct mr_part {
 	const void *data; /* NULL: not there */
 	char type;        /* of mr_shape: d, u or b; or f: doubles, written as floats, not as text */
@@ -84,7 +84,7 @@ void mr_vertex_parts(const mr_model *m, mr_part part[MR_PARTS]);
 
 mr_part mr_property_part(const mr_property *p);
 
-/* Row i of the parts that are there: as text, a blank behind each number, or little-endian. */
+/* Row i of the parts that are there: as text, a blank after each number, or little-endian. */
 void mr_put_parts(mr_sink *s, const mr_part *part, size_t parts, size_t i, bool text);
 
 /* In text, the last blank of a row becomes its newline. */

@@ -109,7 +109,7 @@ mr_word_shown(const char *w, size_t n, char text[MR_SHOWN])
 	return text;
 }
 
-/* A comment may stand right behind a number, but 1.#INF is none with one. */
+/* A comment may follow a number without a blank, but 1.#INF is none with one. */
 static bool
 ends_word(const char *p, const char *end)
 {

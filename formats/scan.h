@@ -10,7 +10,7 @@
 typedef struct mr_scan {
 	mr_ctx *ctx;
 	const char *start, *p, *end;
-	bool binary; /* places are told by bytes */
+	bool binary; /* error messages name places by bytes */
 } mr_scan;
 
 static inline bool
@@ -44,10 +44,10 @@ mr_skip_space(mr_scan *t)
 /* The same, and comments, which begin with # and go to the end of the line. */
 void mr_skip_comments(mr_scan *t);
 
-/* Reports what stands behind the last row, unless that is blank, or zeros that fill up. */
+/* Reports data after the last row, unless it is blank or zero padding. */
 void mr_scan_rest(mr_scan *t);
 
-/* The line that begins at t->p, without its end, as a text of its own with the same start; t goes on behind
+/* The line that begins at t->p, without its end, as a text of its own with the same start; t moves past
  * it. */
 bool mr_scan_line(mr_scan *t, mr_scan *line);
 
@@ -67,8 +67,7 @@ mr_status mr_scan_real(mr_scan *t, const char *what, double *x);
 /* The next word as a whole number of at most `most`. */
 mr_status mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n);
 
-/* The numbers of a line that mr_scan_line gave, or of what is left of it, up to a comment: `least` to `most`.
- */
+/* The numbers of a line that mr_scan_line gave, or of the rest of it, up to a comment: `least` to `most`. */
 mr_status mr_scan_reals(mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count);
 
 /* Three numbers. */

@@ -5,7 +5,7 @@
 
 /* ---- the layers of a frame ---- */
 
-/* What is to be written of a frame. */
+/* The parts of a frame that are written. */
 typedef struct layers {
 	const char **name;
 	mr_model *model;
@@ -72,7 +72,7 @@ add_nodes(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const layers 
 	scene->open = scene->nodes;
 	scene->takes++;
 	MR_TRY(mr_frame_keep(ctx, keep, f, &own));
-	own->key = false; /* what is lost has been said */
+	own->key = false; /* losses have been reported */
 	MR_RESERVE(keep, scene->node, scene->nodes, l->count, &scene->room);
 	for (size_t i = 0; i < l->count; i++) {
 		mr_scene_node *n = &scene->node[scene->nodes++];

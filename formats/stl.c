@@ -1,5 +1,5 @@
 /* Stereolithography: triangles without connectivity, whose corners are joined where equal.  A binary file may
- * begin with "solid", as a text does: its size tells, 84 bytes and 50 for each triangle. */
+ * begin with "solid", as a text does: its size decides: 84 bytes and 50 for each triangle. */
 #include "formats/format.h"
 #include "mesh/name_lists.h"
 #include "mesh/repair.h"
@@ -86,8 +86,7 @@ end_facet(ascii *a, const char *where)
 	return MR_OK;
 }
 
-/* What is left of the line is the name of a solid, which begins a group, but for a first one without a name.
- */
+/* The rest of the line names a solid, which begins a group, except a first one without a name. */
 static void
 name_solid(ascii *a, bool begins)
 {
@@ -99,7 +98,7 @@ name_solid(ascii *a, bool begins)
 		mr_build_mark(&a->b, MR_GROUP, line.p, (size_t)(line.end - line.p), true);
 }
 
-/* What stands behind a word; words that say nothing, as those of a normal, are passed over. */
+/* The values after a word; irrelevant words, such as a normal's, are skipped. */
 static mr_status
 read_word(ascii *a, const char *w, size_t n)
 {

@@ -1,10 +1,10 @@
-/* Points in columns: XYZ, PTS, PWN, and tables with a line of names.  man/mr-import.1 says how columns are
- * told apart where they have none.  A first line with one whole number counts the points. */
+/* Points in columns: XYZ, PTS, PWN, and tables with a line of names.  man/mr-import.1 says how columns
+ * without names are recognised.  A first line with one whole number counts the points. */
 #include "formats/format.h"
 
 enum { COLUMNS = 64 };
 
-/* What the rows have shown of a column. */
+/* Statistics of a column's values. */
 typedef struct column {
 	mr_role role;
 	const char *name; /* in the file */
@@ -123,8 +123,8 @@ is_one_count(mr_scan line, uint64_t *n)
 	return true;
 }
 
-/* Comments, of which one may name the columns, names, a count, in any order.  A comment of the writer tells
- * that a value of 1 is a dark byte, not full. */
+/* Comments, of which one may name the columns, names, a count, in any order.  A comment of the writer means
+ * that a value of 1 is a dark byte, not full intensity. */
 static void
 read_head(table *t)
 {
@@ -147,8 +147,8 @@ read_head(table *t)
 
 /* ---- rows ---- */
 
-/* Reads a number, a word such as nan, or an empty cell, which is none, and goes on behind what parts it from
- * the next; false where it is something else. */
+/* Reads a number, a word such as nan, or an empty cell, which is none, and moves past the separator; false
+ * for anything else. */
 static bool
 next_number(mr_scan *line, char separator, double *x)
 {
@@ -195,7 +195,7 @@ row_values(const table *t, mr_scan *line, double x[COLUMNS], size_t *count)
 	return MR_OK;
 }
 
-/* What the first row tells of the columns. */
+/* The types of columns by the first row. */
 static mr_status
 begin_rows(table *t, const mr_scan *row, size_t n)
 {
@@ -253,7 +253,7 @@ survey(table *t)
 	return MR_OK;
 }
 
-/* ---- what the columns are, where no names tell ---- */
+/* ---- roles of columns without names ---- */
 
 /* The greatest of three columns without a negative value; else -1. */
 static double
@@ -296,7 +296,7 @@ assign(table *t, size_t at, mr_role first)
 		    at + 1, at + 3);
 }
 
-/* Of two triples the second is the normal where it alone is unit, or where only the first can be a colour. */
+/* The second of two triples is the normal if it alone is unit, or if only the first can be a colour. */
 static void
 guess_pair(table *t)
 {

@@ -77,8 +77,8 @@ MR_API const char *mr_error(const mr_ctx *ctx);
 
 typedef struct mr_v3 { double x, y, z; } mr_v3;
 
-/* Findings: what a user should know of a result that is given all the same; man/mr-findings.7 explains each.
- * First those of a surface, by comparing it with what it was; then of data; then what algorithms alone know. */
+/* Findings: flaws of a result that is given all the same; man/mr-findings.7 explains each.  First findings of
+ * a surface compared with its former state; then of data; then of algorithms. */
 #define MR_FINDINGS(X) \
 	X(FOLDED, "folded") X(CROSSING, "crossing") X(COLLIDED, "collided") X(TORN, "torn") \
 	X(COARSE, "coarse") X(APART, "apart") X(MISSED, "missed") X(VOLUME, "volume") X(SHRUNK, "shrunk") \
@@ -113,7 +113,7 @@ MR_API const char *mr_finding_name(mr_finding_kind kind);
 
 /* Who wants to hear; NULLs do not. */
 typedef struct mr_listener {
-	void (*found)(void *user, const mr_finding *finding);         /* what is poor in a result */
+	void (*found)(void *user, const mr_finding *finding);         /* flaws of a result */
 	void (*note)(void *user, const char *text);                   /* remarks, as of -v */
 	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1 */
 	void *user;                                                   /* passed to all */
@@ -146,7 +146,7 @@ typedef struct mr_mesh {
 
 typedef struct mr_frame mr_frame;
 
-/* What a column holds: `element` v (a vertex), f (a face) or - (neither); `type` d (double), u (uint32_t), b
+/* The type of a column: `element` v (a vertex), f (a face) or - (neither); `type` d (double), u (uint32_t), b
  * (byte) or t (text); components per row. */
 typedef struct mr_shape {
 	char element, type;
@@ -158,7 +158,7 @@ MR_API mr_status mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame) M
 
 MR_API const char *mr_frame_name(const mr_frame *frame);
 
-/* Column i of all, in their order; false behind the last.  What is NULL is not wanted. */
+/* Column i of all, in their order; false after the last.  Each output may be NULL. */
 MR_API bool mr_frame_column(
     const mr_frame *frame, size_t i, const char **layer, const char **name, mr_shape *shape, uint64_t *rows);
 
@@ -187,11 +187,11 @@ MR_API mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_m
 /* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */
 MR_API mr_status mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
 
-/* Puts positions, which must be finite, and triangles; where others were drops what is stale, and warns. */
+/* Puts positions, which must be finite, and triangles; replacing others drops stale columns, and warns. */
 MR_API mr_status mr_layer_put_mesh(
     mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m) MR_WARN_UNUSED;
 
-/* What became of a layer. */
+/* The kind of a layer's last change. */
 typedef enum mr_change {
 	MR_POSED,       /* the same surface, elsewhere */
 	MR_RESHAPED,    /* another surface of the same vertices and triangles */
@@ -219,8 +219,8 @@ typedef struct mr_writer mr_writer;
  * not be cut meanwhile. */
 MR_API mr_status mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader) MR_WARN_UNUSED;
 
-/* MR_OK: *frame is the next one, a delta merged with what it keeps, valid until the next call; MR_END: all
- * streams have ended well, and the last frame stays valid; else failed, and every further call fails. */
+/* MR_OK: *frame is the next one, a delta merged with the columns it keeps, valid until the next call; MR_END:
+ * all streams have ended well, and the last frame stays valid; else failed, and every further call fails. */
 MR_API mr_status mr_reader_next(mr_ctx *ctx, mr_reader *reader, mr_frame **frame) MR_WARN_UNUSED;
 
 MR_API void mr_reader_free(mr_reader *reader);
@@ -236,7 +236,7 @@ MR_API mr_status mr_writer_put(mr_ctx *ctx, mr_writer *writer, const mr_frame *f
 /* Says that a frame was left out: the next one is sent complete. */
 MR_API void mr_writer_skipped(mr_writer *writer);
 
-/* Writes END, behind which nothing can be written: call it only when all went well. */
+/* Writes END, after which nothing can be written: call it only when all went well. */
 MR_API mr_status mr_writer_end(mr_ctx *ctx, mr_writer *writer) MR_WARN_UNUSED;
 
 MR_API void mr_writer_free(mr_writer *writer);
@@ -256,7 +256,7 @@ typedef struct mr_import_opts {
 
 #define MR_IMPORT_DEFAULTS MR_DEFAULTS(NULL, NULL, false, false, false, false, 0, false)
 
-/* What was read; what of the file could not be kept is reported as findings. */
+/* The frames of a file; losses are reported as findings. */
 typedef struct mr_import_result {
 	size_t vertices, triangles;            /* of the frame */
 	size_t polygons;                       /* faces of more than three corners */
@@ -268,12 +268,12 @@ MR_API mr_status mr_import(mr_ctx *ctx, const char *path, const mr_import_opts *
     mr_import_result *result) MR_WARN_UNUSED;
 
 /* Writes a layer (NULL: the one worked on last, else mesh, control, points or base) to a file ("-": stdout),
- * whole or not at all.  format: NULL: by the suffix.  What the format cannot keep is reported as findings. */
+ * whole or not at all.  format: NULL: by the suffix.  Losses of the format are reported as findings. */
 MR_API mr_status mr_export(
     mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format) MR_WARN_UNUSED;
 
-/* What may outlive a frame: a factorization, an index.  A frame that is a delta and left unchanged what it
- * depends on finds it again; never does it change a byte, and it may be NULL wherever it is given. */
+/* Data that may outlive a frame: a factorization, an index.  A delta that left its sources unchanged finds it
+ * again; never does it change a byte, and it may be NULL wherever it is given. */
 typedef struct mr_cache mr_cache;
 
 MR_API mr_cache *mr_cache_new(void); /* NULL where there is no memory for it */
@@ -351,12 +351,12 @@ typedef struct mr_fill_opts {
 typedef struct mr_fill_result {
 	size_t loops, filled;   /* boundary loops there were, and those that are filled */
 	size_t crossing;        /* loops left open because their patch would cross the surface */
-	size_t vertices, faces; /* new ones, behind those there were */
+	size_t vertices, faces; /* new ones, after the old ones */
 } mr_fill_result;
 
-/* Fills boundary loops by patches that go on smoothly (Liepa 2003; Botsch, Kobbelt 2004): vertices and faces that
- * were there stay as they are, bit for bit.  What other layers know of the layer is dropped.  MR_EMESH without a
- * face; MR_ENUMERIC where the system has no solution in doubles. */
+/* Fills boundary loops by patches that go on smoothly (Liepa 2003; Botsch, Kobbelt 2004): old vertices and
+ * faces stay as they are, bit for bit.  Other layers' references to the layer are dropped.  MR_EMESH without
+ * a face; MR_ENUMERIC if the system has no solution in doubles. */
 MR_API mr_status mr_fill_frame(
     mr_ctx *ctx, mr_frame *f, const mr_fill_opts *opts, mr_fill_result *result) MR_WARN_UNUSED;
 
@@ -406,8 +406,8 @@ MR_API mr_status mr_normals_frame(
 
 typedef struct mr_crop_result { size_t vertices, faces, vertices_dropped, faces_dropped; } mr_crop_result;
 
-/* Leaves what n rules, in their order, make free, and drops what they make fixed; where the first makes some
- * free the others are fixed to begin with.  layer: NULL: mesh, else control, else points. */
+/* Keeps the vertices that n rules, in their order, make free, and drops the fixed ones; if the first rule
+ * makes some free the others begin fixed.  layer: NULL: mesh, else control, else points. */
 MR_API mr_status mr_crop_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_rule *rules, size_t n,
     mr_crop_result *result) MR_WARN_UNUSED;
 
@@ -446,7 +446,7 @@ typedef struct mr_pose {
 
 #define MR_POSE_REST MR_DEFAULTS({ 0, 0, 0 }, { 0, 0, 1 }, 0, { 1, 1, 1 }, false, { 0, 0, 0 })
 
-/* Where a handle goes, on top of where it is.  layer: that has the regions; NULL: mesh, else control. */
+/* The motion of a handle, after its motions so far.  layer: with the regions; NULL: mesh, else control. */
 MR_API mr_status mr_pose_frame(
     mr_ctx *ctx, mr_frame *f, const char *layer, size_t handle, const mr_pose *pose) MR_WARN_UNUSED;
 
@@ -527,7 +527,7 @@ MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts 
 /* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled. */
 typedef enum mr_wrap_method { MR_WRAP_AUTO, MR_WRAP_CUBE, MR_WRAP_VOLUME } mr_wrap_method;
 
-/* What the points leave open is closed: narrow holes of the sampling, all, none. */
+/* Openings to close: narrow holes of the sampling, all, none. */
 typedef enum mr_wrap_lids_closed { MR_LIDS_AUTO, MR_LIDS_ALL, MR_LIDS_NONE } mr_wrap_lids_closed;
 
 typedef struct mr_wrap_opts {
@@ -545,7 +545,7 @@ typedef struct mr_wrap_opts {
 
 #define MR_WRAP_DEFAULTS MR_DEFAULTS(MR_WRAP_AUTO, MR_LIDS_AUTO, 0, 0, 0.5, 0.2, 0, false, false, NULL)
 
-/* Of the implicit surface. */
+/* Method of the implicit surface. */
 typedef struct mr_volume_result {
 	size_t samples, sided; /* points that counted; whose sides were used */
 	double spacing, cell;  /* side of the square that a point stands for; of a cell */
@@ -798,12 +798,12 @@ typedef struct mr_surface_figures {
 	size_t intersections; /* pairs of faces */
 } mr_surface_figures;
 
-/* Of any mesh with valid indices and finite positions.  intersections: whether they are looked for. */
+/* Figures of any mesh with valid indices and finite positions.  intersections: whether to count them. */
 MR_API mr_status mr_measure_surface(
     mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface_figures *figures) MR_WARN_UNUSED;
 
-/* Of points, finite or not; all but these counts are of the finite ones.  NaN of one place, what has no
- * number. */
+/* Figures of points, finite or not; all but these counts are of the finite ones.  NaN: undefined, as of one
+ * place. */
 typedef struct mr_cloud_figures {
 	size_t points, not_finite;
 	size_t duplicates; /* points at the place of an earlier one */
@@ -817,7 +817,7 @@ typedef struct mr_cloud_figures {
 	double noise_spacing, noise_diagonal; /* in median spacings, and in diagonals */
 } mr_cloud_figures;
 
-/* Of a layer's points. */
+/* The sampling of a layer's points. */
 MR_API mr_status mr_measure_cloud(
     mr_ctx *ctx, mr_frame *f, const char *layer, mr_cloud_figures *figures) MR_WARN_UNUSED;
 
@@ -843,8 +843,8 @@ typedef struct mr_distance {
 	double normal_mean, normal_quantile[4]; /* angles between normals, in degrees; NaN of a cloud */
 } mr_distance;
 
-/* Of two layers with the same connectivity: vertex by vertex, and |edge of b| / |edge of a|.  NaN where there
- * is none. */
+/* Figures of two layers with the same connectivity: vertex by vertex, and |edge of b| / |edge of a|.  NaN:
+ * none. */
 typedef struct mr_deviation {
 	double max, mean, rms; /* distances between a vertex of a and of b */
 	size_t vertex;         /* where the greatest is */
@@ -887,21 +887,22 @@ typedef struct mr_align_result {
 	bool found;           /* else map is the identity, and the frame stays */
 } mr_align_result;
 
-/* Moves the frame to where it fits the reference: coarse by features, fine by points to planes.
- * The motion is the column `transform` of no layer.  Where none fits the frame stays, and is found unaligned. */
+/* Moves the frame so that it fits the reference: coarse by features, fine by points to planes.  The motion is
+ * the column `transform` of no layer.  If none fits, the frame stays and is found unaligned. */
 MR_API mr_status mr_align_frame(mr_ctx *ctx, mr_frame *f, mr_frame *reference, const mr_align_opts *opts,
     mr_align_result *result) MR_WARN_UNUSED;
 
-/* The motions that bring n frames into that of the first which fits others; mr_align_put moves a frame by its own.
- * result: of each, by the pair that joins it.  opts: but for the scale. */
+/* The motions that bring n frames into the coordinates of the first that fits others; mr_align_put moves a
+ * frame by its own.  result: of each, by the pair that joins it.  opts: but for the scale. */
 MR_API mr_status mr_align_frames(mr_ctx *ctx, mr_frame *const *frames, size_t n, const mr_align_opts *opts,
     mr_align_result *result) MR_WARN_UNUSED;
 MR_API mr_status mr_align_put(mr_ctx *ctx, mr_frame *f, const mr_align_opts *opts, const mr_align_result *result)
     MR_WARN_UNUSED;
 
-/* Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.
- * mr_judge compares the surface that a tool made or moved with what it was.  least: NULL, or of a sequence, at first
- * 0: nothing is judged that has moved by less, and *least becomes twice the largest distance that was. */
+/* Judging: reports the harm to a frame to the listener for findings; without one it does nothing.  mr_judge
+ * compares the surface that a tool made or moved with its former state.  least: NULL, or of a sequence, at
+ * first 0: surfaces that moved by less are not judged, and *least becomes twice the largest distance so
+ * far. */
 MR_API mr_status mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least) MR_WARN_UNUSED;
 
 /* Compares the columns: what a file gave, or an earlier tool made, that is not there any more. */
@@ -962,7 +963,7 @@ MR_API mr_status mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const 
 MR_API mr_status mr_map_read(mr_ctx *ctx, mr_frame *f, const char *picture, const mr_map_opts *opts,
     mr_map_result *result) MR_WARN_UNUSED;
 
-/* What one surface looks like as pictures for another: mr-map --bake */
+/* Pictures of one surface for another: mr-map --bake */
 
 typedef struct mr_bake_opts {
 	const char *layer;     /* of the target; NULL: control with a displacement, else as mr-export has it */

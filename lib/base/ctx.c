@@ -16,14 +16,14 @@ enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15 };
 struct mr_block {
 	struct mr_block *below;
 	uint64_t serial;   /* from 1, growing towards the top */
-	size_t size, used; /* of the bytes behind the header */
+	size_t size, used; /* of the bytes after the header */
 	char pad[ALIGN - sizeof(struct mr_block *) - sizeof(uint64_t) - 2 * sizeof(size_t)];
 };
 
 /* It lies in the arena itself, and is dropped when its own memory is released. */
 struct mr_owned {
 	mr_owned *below;
-	mr_mark at; /* behind it */
+	mr_mark at; /* after it */
 	void (*drop)(void *object);
 	void *object;
 };

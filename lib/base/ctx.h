@@ -1,9 +1,9 @@
 /* ctx.h -- status codes, and the context that every library function takes first.  The library never prints
  * and never exits: on failure a function puts one sentence into the context, and its outputs are unchanged.
  *
- * All memory is of the context's arena, until that is released: callers free nothing, and what needs
- * workspace allocates its outputs before it.  Where memory runs out, the public function that was called
- * returns MR_EMEM (MR_ENTER), and nothing in between holds what the arena does not know (mr_own). */
+ * All memory is of the context's arena, until that is released: callers free nothing, and a function that
+ * needs workspace allocates its outputs before it.  If memory runs out, the public function that was called
+ * returns MR_EMEM (MR_ENTER), and nothing in between holds memory unknown to the arena (mr_own). */
 #ifndef MR_BASE_CTX_H
 #define MR_BASE_CTX_H
 
@@ -34,7 +34,7 @@ _Static_assert(sizeof(size_t) == 8, "mr is for machines of 64 bits: sizes of col
 
 enum { MR_ERROR_MAX = 512 };
 
-/* What helps where something failed.  The words, which name tools and options, are the command's. */
+/* Kinds of remedies for failures.  The sentences, which name tools and options, are the command's. */
 typedef enum mr_remedy {
 	MR_NO_REMEDY,
 	MR_REPAIR,
@@ -77,7 +77,7 @@ struct mr_ctx {
 	/* Before a file is read, or a whole one gets its name: may refuse that.  NULL: nobody minds. */
 	mr_status (*permit)(mr_ctx *ctx, const char *path, bool writes);
 	bool sync;                /* files are on the disk before they get their names */
-	const char *scratch;      /* folder for what is large, memory.h; NULL: none */
+	const char *scratch;      /* folder for large arrays, memory.h; NULL: none */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_remedy remedy;         /* against it */
@@ -94,7 +94,7 @@ struct mr_ctx {
 enum { MR_BROWSER = 1 }; /* has one solver, linear poses, no nearest points */
 #else
 enum { MR_BROWSER = 0 };
-/* Where a public function was entered: private to MR_ENTER. */
+/* The entry of a public function: private to MR_ENTER. */
 struct mr_entry {
 	mr_ctx *ctx;
 	mr_entry *outer; /* of a caller, to which what runs out of memory outside leads again */
@@ -130,8 +130,7 @@ mr_scope_end(mr_scope *s)
 #define MR_SCOPE(context)                                                                                    \
 	mr_scope scope_ __attribute__((cleanup(mr_scope_end), unused)) = { (context), mr_mark_take(context) }
 
-/* An arena for what outlives the call, to be asked for in each: its threads, listener and way back are those
- * of ctx. */
+/* An arena that outlives the call, fetched anew in each: it shares ctx's threads, listener and way back. */
 mr_ctx *mr_keep(const mr_ctx *ctx, mr_ctx *keep);
 
 /* Gives up what runs out of memory, whose sentence is set, to the newest MR_ENTER, which there must be. */
@@ -150,7 +149,7 @@ void mr_ctx_free(mr_ctx *ctx);
 /* Stores the sentence and returns `status`, for `return mr_fail(...)`. */
 mr_status mr_fail(mr_ctx *ctx, mr_status status, const char *format, ...) MR_PRINTF(3, 4);
 
-/* Behind mr_fail: what helps.  Returns `status`. */
+/* Follows mr_fail: adds the remedy.  Returns `status`. */
 static inline mr_status
 mr_advise(mr_ctx *ctx, mr_remedy remedy, mr_status status)
 {
@@ -167,7 +166,7 @@ mr_status mr_fail_as(mr_ctx *ctx, const mr_ctx *other, mr_status status);
 /* A remark for the user who asked for them. */
 void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 
-/* Reports what is poor in a result that is given all the same. */
+/* Reports a flaw of a result that is given all the same. */
 void mr_found(const mr_ctx *ctx, const mr_finding *finding);
 
 /* Whether anybody listens: else nothing need be looked for. */

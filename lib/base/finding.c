@@ -45,7 +45,7 @@ mr_finding_write(mr_text *text, const mr_kept_finding *k)
 	mr_text_add(text, "\n");
 }
 
-/* Copies the next field of a line, and moves behind its tab or the line's end. */
+/* Copies the next field of a line, and moves past its tab or the line's end. */
 static void
 next_field(const char **at, const char *end, char *field, size_t size)
 {

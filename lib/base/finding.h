@@ -1,5 +1,5 @@
 /* finding.h -- findings as text: the column `findings` of a frame, one line each, and their names. mr.h has
- * the kinds; what a user is told of each stands in cmd/findings.c alone. */
+ * the kinds; the sentences for users are in cmd/findings.c alone. */
 #ifndef MR_BASE_FINDING_H
 #define MR_BASE_FINDING_H
 

@@ -10,7 +10,7 @@
 
 enum { ALIGN = 64, LARGE = 1 << 26, HUGE = 1 << 21 };
 
-/* What stands before the memory. */
+/* The header before the memory. */
 typedef struct head {
 	void *begin; /* what to free, or to unmap */
 	size_t size; /* of the memory */
@@ -39,7 +39,7 @@ headed(void *begin, size_t size, int file)
 	return memory;
 }
 
-/* The system gives more than it has, and ends whoever then uses it: what is large is asked for first. */
+/* The system gives more than it has, and ends whoever then uses it: large requests are checked first. */
 static bool
 is_there(size_t bytes)
 {
@@ -84,8 +84,7 @@ mr_memory_begin(void)
 #endif
 }
 
-/* By malloc; the system moves what is large without copying it, so that there are never two of an array that
- * grows. */
+/* By malloc: the system moves large blocks without copying, so a growing array never exists twice. */
 static void *
 on_heap(void *old, size_t size)
 {
@@ -104,7 +103,7 @@ on_heap(void *old, size_t size)
 	return headed(begin, size, -1);
 }
 
-/* Reserved as a whole: what is written to later never finds the disk full. */
+/* Reserved as a whole, so that later writes never find the disk full. */
 static void *
 map_file(int file, size_t size)
 {

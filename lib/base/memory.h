@@ -17,8 +17,8 @@ mr_status mr_no_memory(mr_ctx *ctx, const char *what, double bytes);
 /* Gives it back; NULL is nothing. */
 void mr_memory_free(void *memory);
 
-/* Bytes that can be had without swapping, by what the system, the process's groups and its limits say;
- * infinite where none of them does.  No result may depend on it but a refusal, or a choice that is told. */
+/* Bytes that can be had without swapping, by the limits of the system, the process's groups and the process;
+ * infinite if there is none.  No result may depend on it, except a refusal or a reported choice. */
 double mr_memory_available(void);
 
 /* The most bytes that the process ever held at once, 0 where the system does not say; for figures only. */

@@ -1,11 +1,11 @@
-/* What the machine says is free, or a control group that the process is in, whichever is less; and what is
- * taken. */
+/* The free memory of the machine or of a control group of the process, whichever is less; and the used
+ * one. */
 #include "base/memory.h"
 
 #include <math.h>
 #include <sys/resource.h>
 
-/* The number that stands in the file behind `key` (NULL: first), or NaN. */
+/* The number after `key` in the file (NULL: first), or NaN. */
 static double
 number_in(const char *path, const char *key)
 {
@@ -38,7 +38,7 @@ number_of(const char *group, const char *file, const char *key)
 	return n < (int)sizeof path ? number_in(path, key) : NAN;
 }
 
-/* What a group may still take, NaN: it does not say: the files that the system keeps for it give way. */
+/* The memory that a group may still take, with its cached files, which give way; NaN: unknown. */
 static double
 left_in(const char *group)
 {
@@ -47,7 +47,7 @@ left_in(const char *group)
 	       fmax(0, number_of(group, "memory.stat", "active_file "));
 }
 
-/* Of the process's group and those around it; a container may show its own as the root. */
+/* The least of the process's group and its ancestors; a container may show its own as the root. */
 static double
 group_memory(void)
 {
@@ -62,7 +62,7 @@ group_memory(void)
 		group[strcspn(group, "\n")] = '\0';
 		for (char *end = group + strlen(group); end; end = strrchr(group, '/')) {
 			*end = '\0';
-			least = fmin(least, left_in(group)); /* what is not a number does not count */
+			least = fmin(least, left_in(group)); /* NaN does not count */
 		}
 	}
 	if (file)

@@ -40,8 +40,8 @@ forget(mr_ctx *ctx, mr_outfile *f)
 	f->temporary = NULL;
 }
 
-/* Who owns what is there, and may do what with it, stays so where that can be; what runs as its owner does
- * not as another. */
+/* Keeps owner and permissions of the old file as far as possible; a set-user bit goes if the owner
+ * changes. */
 static void
 keep_mode(mr_ctx *ctx, const struct stat *old, mr_outfile *f)
 {
@@ -51,7 +51,7 @@ keep_mode(mr_ctx *ctx, const struct stat *old, mr_outfile *f)
 		mr_note(ctx, "%s: cannot keep its mode: %s", f->path, strerror(errno));
 }
 
-/* old: what is there; NULL: nothing.  The name is told before there is such a file: an interrupt between the
+/* old: the present file; NULL: none.  The name is registered before the file exists: an interrupt between the
  * two finds nothing to remove. */
 static mr_status
 open_file(mr_ctx *ctx, const struct stat *old, bool link, mr_outfile *f)
@@ -118,7 +118,7 @@ mr_sync(mr_ctx *ctx, int fd, const char *path)
 	           : MR_OK;
 }
 
-/* Of the name that it has now, which is cut to that of the folder. */
+/* Cuts f->target to its folder. */
 static mr_status
 sync_folder(mr_ctx *ctx, const mr_outfile *f)
 {

@@ -1,5 +1,5 @@
-/* outfile.h -- files that are seen whole or not at all: what was there stays until they have their name.
- * Until then a file stands beside its place under a random name, which ctx->unfinished is told. */
+/* outfile.h -- files that are seen whole or not at all: the old file stays until the new one takes its name.
+ * Until then the new one has a random name beside it, kept in ctx->unfinished. */
 #ifndef MR_BASE_OUTFILE_H
 #define MR_BASE_OUTFILE_H
 
@@ -8,15 +8,15 @@
 typedef struct mr_outfile {
 	int fd;
 	char *path;      /* as the user calls it; NULL: no file is open */
-	char *target;    /* what it is to be called; NULL: a device or a pipe, which is written where it is */
-	char *temporary; /* what it is called until then; NULL: nothing */
+	char *target;    /* its final name; NULL: a device or a pipe, written in place */
+	char *temporary; /* its name until then; NULL: none */
 } mr_outfile;
 
-/* Opens `path` for writing, or what a link of that name leads to, there or not yet.  It gets mode and owner
- * of what is there.  End it by one of the two below. */
+/* Opens `path` for writing, or the target of a link of that name, which may not exist yet.  It gets mode and
+ * owner of the old file.  End it by one of the two below. */
 mr_status mr_outfile_open(mr_ctx *ctx, const char *path, mr_outfile *f) MR_WARN_UNUSED;
 
-/* Gives the file its name and closes it; with ctx->sync not before it is on the disk.  Where that fails it is
+/* Gives the file its name and closes it; with ctx->sync not before it is on the disk.  If that fails it is
  * dropped.  A zeroed one passes. */
 mr_status mr_outfile_keep(mr_ctx *ctx, mr_outfile *f) MR_WARN_UNUSED;
 

@@ -7,7 +7,7 @@
 
 typedef bool (*mr_before)(const void *a, const void *b);
 
-/* Adds *x to the n elements of `size` bytes, behind which there is room for it. */
+/* Adds *x to the n elements of `size` bytes, with room for one more. */
 static inline void
 mr_queue_push(void *queue, size_t n, size_t size, const void *x, mr_before before)
 {

@@ -105,7 +105,7 @@ mr_mat3 mr_rotation_exp(mr_v3 w);
  * best where there are several. */
 mr_mat3 mr_rotation_nearest(const mr_mat3 *a);
 
-/* Of all w of which mr_rotation_exp is that rotation, the one nearest to `near`: so turns are not lost. */
+/* The logarithm w of that rotation that is nearest to `near`: so full turns are not lost. */
 mr_v3 mr_rotation_log(const mr_mat3 *a, mr_v3 near);
 
 #endif

@@ -19,7 +19,7 @@ void mr_text_bytes(mr_text *t, const char *s, size_t n);
 /* Appends n bytes as a JSON string, quotes and all; bytes that are not UTF-8 become U+FFFD. */
 void mr_text_json(mr_text *t, const char *s, size_t n);
 
-/* Appends n bytes for people to read in a line: what is not UTF-8, and control characters, become '?'. */
+/* Appends n bytes for people to read in a line: invalid UTF-8 and control characters become '?'. */
 void mr_text_line(mr_text *t, const char *s, size_t n);
 
 /* Appends a name to a list of *n so far, at first 0, with a comma between two; for the 13th and later three
@@ -32,7 +32,7 @@ void mr_text_number(mr_text *t, double x);
 /* Appends `before`, then the number with so many digits, for people, or "-" where it is not finite. */
 void mr_text_figure(mr_text *t, const char *before, int digits, double x);
 
-/* Behind "%zu part", and the like. */
+/* The plural ending after "%zu part", and the like. */
 static inline const char *
 mr_plural(size_t n)
 {

@@ -8,11 +8,10 @@
  * the arena.  MR_EIO where it cannot be read, MR_EFORMAT where it holds a zero byte. */
 mr_status mr_lines_read(mr_ctx *ctx, const char *path, char ***line, size_t *count);
 
-/* Reads n finite numbers with commas between them at *at, which moves behind them; false where they are not
- * there. */
+/* Reads n finite numbers separated by commas at *at, which moves past them; false if there are none. */
 bool mr_numbers(const char **at, size_t n, double *x);
 
-/* Reads a whole number of at most `most` at *at, which moves behind it. */
+/* Reads a whole number of at most `most` at *at, which moves past it. */
 bool mr_whole(const char **at, uint64_t most, uint64_t *x);
 
 #endif

@@ -132,7 +132,7 @@ mr_mean3(mr_v3 a, mr_v3 b, mr_v3 c)
 	return mr_mul(1.0 / 3, mr_add(a, mr_add(b, c)));
 }
 
-/* Whether barycentric coordinates are those of a place within a triangle, but for rounding. */
+/* Whether barycentric coordinates lie within a triangle, but for rounding. */
 static inline bool
 mr_bary_within(mr_v3 w)
 {

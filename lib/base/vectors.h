@@ -16,7 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Tells memory of the rows, of size bytes, of the corners of a face that comes soon. */
+/* Prefetches the rows, of size bytes, of the corners of a face that comes soon. */
 static inline void
 mr_soon(const void *rows, size_t size, const uint32_t v[3])
 {

@@ -3,7 +3,7 @@
  * every prefix is a surface (Taubman 2000; Shapiro 1993).  Neighbours give the context of a bit (Wu 1997).
  *
  * Pass p has of level j bit p + j: a coefficient counts as much as the square root of the area that it
- * changes, and a level's vertices stand half as far apart as those of the one below.
+ * changes, and a level's vertices stand half as far apart as one level below.
  */
 #ifndef MR_COMPACT_BIT_PLANES_H
 #define MR_COMPACT_BIT_PLANES_H

@@ -10,7 +10,7 @@ typedef struct choices {
 	mr_number_odds axis[2][3];
 } choices;
 
-/* The mesh so far, and what it is written from. */
+/* The mesh so far, and its source. */
 typedef struct growing {
 	mr_ctx *ctx;
 	mr_coder *c;

@@ -3,7 +3,7 @@
  *
  * Lifting (Sweldens 1996) by the butterfly's stencil (Dyn, Levin, Gregory 1990), the mean of the ends on a
  * sharp edge; then each end takes an eighth of the coefficient, so that a coarse level is about the mean of
- * what is finer.  Numbers beyond 2^30 are cut off there.
+ * the finer ones.  Numbers beyond 2^30 are cut off there.
  */
 #ifndef MR_COMPACT_LIFTING_H
 #define MR_COMPACT_LIFTING_H

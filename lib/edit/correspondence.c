@@ -25,8 +25,8 @@ spread_labels(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t *
 			}
 }
 
-/* Labels each vertex of the mesh with the nearest of the base vertices that lie on its faces, or, where none
- * does, with that of the neighbours nearest in connectivity.  lifted: the base on the mesh. */
+/* Labels each vertex of the mesh with the nearest base vertex on its faces; a vertex without one takes the
+ * label of the nearest neighbours in connectivity.  lifted: the base on the mesh. */
 static void
 label_vertices(mr_ctx *ctx, const mr_mesh *mesh, const mr_incidence *mesh_inc, const mr_mesh *lifted,
     const mr_incidence *inc, const mr_places *source, uint32_t *label)
@@ -75,7 +75,8 @@ outside(double x, double a, double b, double c)
 	return most > 0 ? most : 0;
 }
 
-/* Whether the face's box is nearer: its nearest point lies within, so that rounding tells no other way. */
+/* Whether the face's box is nearer: its nearest point lies within, so that rounding does not decide
+ * otherwise. */
 static inline bool
 may_be_nearer(const walker *w, uint32_t f, mr_v3 q, double dist2)
 {

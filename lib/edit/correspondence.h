@@ -17,7 +17,7 @@ typedef struct mr_correspondence {
 void mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_incidence *inc,
     const mr_places *source, mr_correspondence *c);
 
-/* Tells memory of what mr_correspond_near will ask for some vertices behind i, below end. */
+/* Prefetches data of mr_correspond_near for some vertices after i, below end. */
 void mr_correspond_soon(const mr_correspondence *c, const mr_mesh *base, size_t i, size_t end);
 
 /* A place near vertex i on base, on a face around the vertex that is near i on the mesh: the first that has

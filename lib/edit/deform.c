@@ -1,5 +1,5 @@
-/* Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4: what is solved for, and
- * for what. */
+/* Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4: unknowns and right-hand
+ * sides. */
 #include "edit/deform.h"
 
 #include "base/disjoint_sets.h"

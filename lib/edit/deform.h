@@ -40,7 +40,7 @@ typedef struct mr_deform_cache {
 } mr_deform_cache;
 
 /* The system on `rest`, the frame's layer with the positions of `column`, under the regions that
- * mr_transfer_get finds; those of the mesh become columns of the layer. */
+ * mr_transfer_get finds; regions of the mesh become columns of the layer. */
 mr_status mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mesh *rest,
     const char *column, const mr_deform_opts *opts, mr_deform **deform);
 

@@ -13,7 +13,7 @@ typedef struct columns {
 	mr_wide c[3];
 } columns;
 
-/* Vertices and faces are those of the patch. */
+/* Indices count the patch's vertices and faces. */
 struct mr_energies {
 	mr_deform_system *s, membrane; /* of order 1, for rounds; no solver where s does */
 	const uint32_t *region;        /* of the mesh */
@@ -72,7 +72,7 @@ linear_of(const turning *t, uint32_t region)
 	return mr_affine_linear(&map);
 }
 
-/* What handle j does beyond the whole, which has turned by w. */
+/* The motion of handle j relative to the whole, which has turned by w. */
 static void
 decompose_handle(turning *t, size_t j, mr_v3 w)
 {
@@ -243,7 +243,7 @@ static const energy interpolated = { interpolate, place_about_sections }, rigid 
 
 /* Steps */
 
-/* Constraints have those of their handles. */
+/* Constraints have their handles' rotations. */
 static void
 local_step(void *arg, size_t begin, size_t end)
 {
@@ -273,7 +273,7 @@ gather_sources(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* What the system shall have as source. */
+/* The system's source term. */
 static const double *
 source_of(mr_ctx *ctx, turning *t, const energy *of)
 {
@@ -286,7 +286,7 @@ source_of(mr_ctx *ctx, turning *t, const energy *of)
 	return t->e->source;
 }
 
-/* Where the patch is, and how much further it would go: four rounds then do what seven do without. */
+/* The patch extrapolated by its last step: four rounds then replace seven. */
 static void
 extrapolate(const turning *t, const mr_v3 *p, bool first)
 {
@@ -385,7 +385,7 @@ find_handles(mr_ctx *ctx, mr_energies *e)
 			e->handle[e->count++] = r;
 }
 
-/* Not beyond 0 and 1, with what is left of 1. */
+/* Clamps the weights and their rest to 0 and 1, and scales their sum to 1. */
 static void
 clamp_weights(double *w, size_t n)
 {

@@ -12,8 +12,8 @@
 
 typedef struct mr_energies mr_energies;
 
-/* What poses need beyond the system, by s->opts; *e NULL: nothing.  region: of the mesh's vertices; lowest:
- * that which moves the whole.  s, region: borrowed. */
+/* The data of poses beyond the system, by s->opts; *e NULL: nothing.  region: of the mesh's vertices; lowest:
+ * the region that moves the whole.  s, region: borrowed. */
 mr_status mr_energies_make(mr_ctx *ctx, mr_deform_system *s, const uint32_t *region, uint32_t lowest,
     mr_energies **e) MR_WARN_UNUSED;
 
@@ -21,7 +21,7 @@ mr_status mr_energies_make(mr_ctx *ctx, mr_deform_system *s, const uint32_t *reg
 mr_status mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr_v3 *p0,
     const mr_deform_maps *maps, mr_v3 *p) MR_WARN_UNUSED;
 
-/* Of a face and a weight: the centroid of the section through it, a piece of the weight's level set, and by
+/* For a face and a weight: the centroid of the section through it, a piece of the weight's level set, and by
  * how much the weight differs across the face, squared. */
 typedef struct mr_section {
 	mr_v3 center;
@@ -32,8 +32,8 @@ typedef struct mr_section {
 mr_section *
 mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count, const double (*cot)[3]);
 
-/* What a patch encloses: its own faces, by the mesh's vertices, and those that close it over its rim, which
- * go with the constraints; none where it ends at a free boundary.  region: of each vertex of the mesh. */
+/* The faces that enclose a patch's volume: its own, by the mesh's vertices, and a closing over its rim, which
+ * moves with the constraints; none where it ends at a free boundary.  region: of each vertex of the mesh. */
 mr_mesh mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region);
 
 /* Moves the free vertices along K^-1 g, g the derivative of the volume by them, the way of least energy,

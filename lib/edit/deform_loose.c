@@ -71,8 +71,8 @@ mean_of(const uint32_t *anchor, size_t n, const mr_v3 *p)
 	return sum;
 }
 
-/* The rigid motion that takes the anchors from p0 to p; about an axis that they do not tell, no rotation, and
- * none at all, bit for bit, where they all go the same way. */
+/* The rigid motion that takes the anchors from p0 to p; no rotation about an undetermined axis, and none at
+ * all, bit for bit, if they all move alike. */
 static mr_affine
 motion_of(const uint32_t *anchor, const mr_v3 *p0, const mr_v3 *p)
 {

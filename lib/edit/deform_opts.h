@@ -1,4 +1,4 @@
-/* deform_opts.h -- what is asked of a deformation: how a surface gives way, and where its constraints go. */
+/* deform_opts.h -- options of a deformation: how a surface gives way, and where its constraints go. */
 #ifndef MR_EDIT_DEFORM_OPTS_H
 #define MR_EDIT_DEFORM_OPTS_H
 
@@ -33,7 +33,7 @@ typedef struct mr_ties {
 	bool known; /* all that touch are among them */
 } mr_ties;
 
-/* Where handles go: as many maps as `count`, those missing are the identity. */
+/* The handles' motions: `count` maps; missing ones are the identity. */
 typedef struct mr_deform_maps {
 	const mr_affine *t;
 	const mr_v3 *turn; /* the logarithm of each one's rotation (handles.h); NULL: the smallest one */

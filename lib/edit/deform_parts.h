@@ -6,13 +6,12 @@
 #include "edit/deform_opts.h"
 
 /* rest, and a triangle from each vertex near another component, and for each of the ties, to two corners of
- * the face there, so that the system is that of one surface.  None of small unconstrained parts, if the ties
- * are known: these are true in follows (one a vertex, false at first).  Its faces are rest's, or in the
- * arena. */
+ * the face there, so that the system is one surface's.  Small unconstrained parts get none if the ties are
+ * known: they are true in follows (one a vertex, false at first).  Its faces are rest's, or in the arena. */
 mr_mesh
 mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region, bool *follows);
 
-/* A part that follows moves by the rigid motion that fits best that of so many vertices nearest to it. */
+/* A part that follows moves by the rigid motion that best fits so many vertices nearest to it. */
 enum { MR_ANCHORS = 64 };
 
 typedef struct mr_loose {

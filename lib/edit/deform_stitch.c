@@ -14,7 +14,7 @@ typedef struct seam {
 	const mr_mesh *rest;
 	const uint32_t *region, *component;
 	part *parts;
-	mr_tri *t; /* stitches, behind the faces */
+	mr_tri *t; /* stitches, after the faces */
 	size_t nf;
 } seam;
 

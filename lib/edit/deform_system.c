@@ -166,7 +166,7 @@ make_workspace(mr_ctx *ctx, mr_deform_system *s)
 	s->work = f;
 }
 
-/* Its hierarchy is that of s without the strip, which the membrane does not need. */
+/* It shares s's hierarchy without the strip, which the membrane does not need. */
 mr_status
 mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m)
 {
@@ -264,7 +264,7 @@ mr_system_make(mr_ctx *ctx, const mr_mesh *rest, const mr_patch *patch, const mr
 	return set_up(ctx, s, rest, started);
 }
 
-/* p = T p0 + z: what is solved for is z. */
+/* p = T p0 + z: the unknown is z. */
 mr_status
 mr_system_follow(
     mr_ctx *ctx, mr_deform_system *s, const mr_affine *whole, const mr_v3 *p0, const double *source, mr_v3 *p)

@@ -35,7 +35,8 @@ typedef struct mr_field {
 	double *stage[2]; /* workspace of as many rows */
 	double *r;        /* of the free vertices, one column after another */
 	size_t width;
-	const double *source; /* K u = L (W L)^(k-2) W source instead of 0, its rows as those of u; NULL: 0 */
+	const double
+	    *source; /* K u = L (W L)^(k-2) W source instead of 0, its rows ordered as in u; NULL: 0 */
 } mr_field;
 
 typedef struct mr_deform_system {
@@ -67,7 +68,7 @@ mr_field mr_system_field(const mr_deform_system *s, size_t width);
 mr_status mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f);
 
 /* p has the constraints where they go; the free vertices follow from p0, where the whole has them.  source:
- * of the differentials less those of the whole, or NULL. */
+ * of the differentials minus the whole's, or NULL. */
 mr_status mr_system_follow(mr_ctx *ctx, mr_deform_system *s, const mr_affine *whole, const mr_v3 *p0,
     const double *source, mr_v3 *p);
 

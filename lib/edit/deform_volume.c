@@ -1,4 +1,4 @@
-/* The volume of what is free, which rounds lose: pressure gives it back. */
+/* The volume of the free part, which rounds lose: pressure restores it. */
 #include "edit/deform_energy.h"
 
 #include "base/disjoint_sets.h"

@@ -297,7 +297,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 
 /* Decoding */
 
-/* What a row of detail is on a base of nf faces. */
+/* The meaning of a row of detail on a base of nf faces. */
 static mr_status
 check_row(mr_ctx *ctx, const mr_detail *d, size_t i, const char *base, size_t nf)
 {

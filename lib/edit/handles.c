@@ -13,7 +13,7 @@ vector_of(const double x[3])
 	return mr_vec(x[0], x[1], x[2]);
 }
 
-/* n numbers, and nothing behind them. */
+/* n numbers, and nothing after them. */
 static bool
 numbers(const char *text, size_t n, double *x)
 {

@@ -27,11 +27,11 @@ mr_status mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region,
 /* The same in the layer with the regions: `layer`, or where it is NULL mesh, else control. */
 mr_status mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h);
 
-/* Where handles are, and by how much each has turned there: along the axis, as long as the angle. */
+/* The handles' maps, and how far each has turned: along the axis, as long as the angle. */
 typedef struct mr_handle_rows {
 	size_t n;
 	mr_affine *map;
-	mr_v3 *turn; /* the logarithm of the map's rotation with all its turns, which a map does not tell */
+	mr_v3 *turn; /* the logarithm of the map's rotation with all its turns, which a map does not hold */
 } mr_handle_rows;
 
 /* The frame's maps and turns (handles.transform, handles.turn), at least n: absent ones are the identity,
@@ -59,9 +59,9 @@ mr_status mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames);
  *	frame
  *	...
  *
- * The word `frame` begins a frame; every other line names a handle and says where it is in that frame,
- * counted from rest, in the words of mr_pose_set.  Several lines for one handle apply in order.  What
- * follows a # is left out.
+ * The word `frame` begins a frame; every other line names a handle and gives its place in that frame,
+ * counted from rest, in the words of mr_pose_set.  Several lines for one handle apply in order.  Text after a
+ *# is a comment.
  */
 typedef struct mr_script {
 	struct mr_script_line *line;
@@ -71,11 +71,11 @@ typedef struct mr_script {
 /* MR_EIO, or MR_EFORMAT with file and line.  In the arena. */
 mr_status mr_script_read(mr_ctx *ctx, const char *path, mr_script *script);
 
-/* Applies frame `number`, from 1; 0 is rest, and behind the last frame the last one stays. */
+/* Applies frame `number`, from 1; 0 is rest, and after the last frame the last pose stays. */
 mr_status
 mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_handle_rows *row);
 
-/* Where handles go: those of a script, or one handle at once or in `frames` frames. */
+/* The handles' motions: by a script, or of one handle at once or in `frames` frames. */
 typedef struct mr_motion {
 	const mr_script *script; /* NULL: none, and what follows counts */
 	size_t handle, frames;
@@ -85,7 +85,7 @@ typedef struct mr_motion {
 /* How many frames follow the one at rest; 0: there is no sequence. */
 size_t mr_motion_length(const mr_motion *m);
 
-/* Poses frame `number` of the sequence: 0 is at rest, behind the last the last pose stays. */
+/* Poses frame `number` of the sequence: 0 is at rest, after the last frame the last pose stays. */
 mr_status mr_motion_put(mr_ctx *ctx, mr_frame *f, const mr_handles *h, const mr_motion *m, size_t number);
 
 /* p = p0 + sum over handles h of W_h (T_h - I), W_h the n x 4 block of the response; the identity gives p0

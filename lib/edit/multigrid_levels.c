@@ -46,7 +46,7 @@ remesh_stage(mr_ctx *ctx, const stage *fine, stage *coarse, mr_places *map)
 
 /* Prolongation */
 
-/* Where the finer vertices are on the coarser mesh. */
+/* The places of the finer vertices on the coarser mesh. */
 typedef struct places {
 	const stage *fine, *coarse;
 	uint32_t *face; /* MR_NONE: nowhere */

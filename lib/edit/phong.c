@@ -143,7 +143,7 @@ settle(const mr_foot_ground *g, mr_v3 p, uint32_t face, const field *f, place at
 	return true;
 }
 
-/* Of the faces at the edge a-b the one of lowest index that is not `face`; MR_NONE on the boundary. */
+/* The face at edge a-b with the lowest index, other than `face`; MR_NONE on the boundary. */
 static uint32_t
 neighbour(const mr_foot_ground *g, uint32_t face, uint32_t a, uint32_t b)
 {
@@ -156,7 +156,7 @@ neighbour(const mr_foot_ground *g, uint32_t face, uint32_t a, uint32_t b)
 	return MR_NONE;
 }
 
-/* Where the way first leaves the face: the corner opposite the edge, the share of the way. */
+/* The way's first exit from the face: the corner opposite the edge, the share of the way. */
 static int
 first_exit(place from, place to, double *share)
 {
@@ -178,7 +178,7 @@ first_exit(place from, place to, double *share)
 	return corner;
 }
 
-/* Cuts the way at the edge opposite `corner` and continues in the face behind it; false on the boundary. */
+/* Cuts the way at the edge opposite `corner` and continues in the next face; false on the boundary. */
 static bool
 cross_edge(const mr_foot_ground *g, uint32_t *face, int corner, double share, place from, place *at)
 {

@@ -1,5 +1,5 @@
 /* Each base vertex takes the region of the corner of the mesh that it lies nearest to; contacts of the mesh
- * are those of what its vertices stand on. */
+ * follow from the base vertices it stands on. */
 #include "edit/region_transfer.h"
 
 #include "base/parallel.h"

@@ -5,13 +5,13 @@
 #include "edit/deform_opts.h"
 #include "space/source_map.h"
 
-/* True where the regions of the frame's layer are those of the mesh, not its own. */
+/* True if the frame's layer takes its regions from the mesh. */
 bool mr_transfer_applies(const mr_frame *f, const char *layer);
 
 /* MR_EMISSING: the layer has no regions.  The sentence says where they are, and how it gets some. */
 mr_status mr_transfer_missing(mr_ctx *ctx, const mr_frame *f, const char *layer);
 
-/* The regions of a layer: its own, or of a base those of the mesh: of the corner with the largest barycentric
+/* The regions of a layer: its own, or for a base the mesh's: of the corner with the largest barycentric
  * coordinate of its place by the source map, else of the closest point.  MR_EMESH where a handle of the mesh
  * reaches no vertex of the base.  region: one per vertex of `base`. */
 mr_status mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **region);

@@ -23,7 +23,7 @@ typedef struct term {
 	size_t listed;
 } term;
 
-/* What a predicate is evaluated on. */
+/* The data that a predicate is evaluated on. */
 typedef struct scene {
 	mr_frame *f; /* or NULL */
 	const mr_mesh *m;
@@ -111,7 +111,7 @@ take_whole(const char **at, uint32_t *whole)
 	return true;
 }
 
-/* The field at hand, with what it is the n-th of its kind. */
+/* The current field, with its number among its kind. */
 static bool
 take_field(mr_ctx *ctx, const char *field, const char **at, size_t *numbers, size_t *wholes, term *t)
 {
@@ -230,7 +230,7 @@ eval_geodesic(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 	return MR_OK;
 }
 
-/* Adds the neighbours of what is in, ring by ring, as far as `rings` and while `may` (or all, if NULL)
+/* Adds the neighbours of the set, ring by ring, as far as `rings` and while `may` (or all, if NULL)
  * allows. */
 static void
 add_rings(mr_ctx *ctx, const scene *s, size_t rings, const uint32_t *region, bool *in)
@@ -457,7 +457,7 @@ find_predicate(const char *text)
 	return NULL;
 }
 
-/* Where the term that begins `text` ends: at a '+' before another term. */
+/* The end of the term that begins `text`: at a '+' before another term. */
 static size_t
 term_length(const char *text)
 {

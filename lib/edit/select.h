@@ -33,9 +33,9 @@ mr_status mr_selection_add_file(mr_ctx *ctx, mr_selection *s, const char *option
 /* The region that the first rule gives. */
 uint32_t mr_selection_begins(const mr_selection *s);
 
-/* Applies the rules in order: later ones win.  region: nv, in and out.  Fails where a rule selects nothing or
- * needs what is not there.  f: that m is a layer of; NULL: none.  groups: MR_NAMINGS of them.  result: or
- * NULL; in the arena. */
+/* Applies the rules in order: later ones win.  region: nv, in and out.  Fails if a rule selects nothing or
+ * needs missing data.  f: the frame of layer m; NULL: none.  groups: MR_NAMINGS of them.  result: or NULL; in
+ * the arena. */
 mr_status mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups,
     const mr_selection *s, uint32_t *region, mr_select_result *result);
 

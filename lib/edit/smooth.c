@@ -203,7 +203,7 @@ choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 	return MR_OK;
 }
 
-/* What is left of area and volume. */
+/* The remaining area and volume. */
 static void
 measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 {

@@ -75,7 +75,7 @@ read_numbers(const char *at, double *x, size_t most, size_t *n)
 	}
 }
 
-/* Of what has infinities the positions tell. */
+/* Infinite entries are reported with the positions. */
 static mr_status
 check_inverse(mr_ctx *ctx, const mr_affine *map)
 {
@@ -255,7 +255,7 @@ turn_normal(const change *c, mr_v3 n)
 	return length > 0 ? mr_mul(length / mr_norm(turned), turned) : n;
 }
 
-/* What a column holds, as far as it changes. */
+/* The kind of a column that changes. */
 typedef enum column_sort {
 	OTHER,
 	POSITIONS,
@@ -267,7 +267,7 @@ typedef enum column_sort {
 	EDGES    /* for its edges, the first from the first corner to the second */
 } column_sort;
 
-/* Of what a layer alone has, by the width of its rows. */
+/* Columns of one layer alone, by the width of their rows. */
 static column_sort
 sort_of_own(const mr_column *c)
 {

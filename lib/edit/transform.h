@@ -1,10 +1,10 @@
-/* transform.h -- affine maps of whole frames: all layers, and what they know of each other, alike. */
+/* transform.h -- affine maps of whole frames: all layers and the columns that relate them. */
 #ifndef MR_EDIT_TRANSFORM_H
 #define MR_EDIT_TRANSFORM_H
 
 #include "mesh/layers.h"
 
-/* What is to be done, step by step; starts zeroed. */
+/* The maps to apply, step by step; starts zeroed. */
 typedef struct mr_transform {
 	struct mr_transform_step *step;
 	size_t n, room;

@@ -13,7 +13,7 @@ typedef struct mr_turn {
 /* A smooth field.  now: where the vertices of rest have gone.  Returns nv, in the arena. */
 const mr_turn *mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_v3 *now);
 
-/* What becomes of the unit normal n of the surface at rest. */
+/* Turns the unit normal n of the surface at rest. */
 mr_v3 mr_turn_normal(const mr_turn *turn, mr_v3 n);
 
 /* The rotation nearest to what became of the surface at a place of a face. */

@@ -70,8 +70,8 @@ local(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *point, size_t n, const mr_fit
 
 /*
  * Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
- * point pulls as one at the limit does.  Where outliers were found there are others too near to be told by
- * where they lie: beyond the limit a point then pulls by the cube of the ratio less.
+ * point pulls as one at the limit does.  If outliers were found, others lie too near to be found by distance:
+ * beyond the limit a point then pulls less, by the cube of the ratio.
  */
 static void
 weigh(mr_ctx *ctx, const mr_fit_foot *foot, const double *share, size_t n, double near, bool outliers,
@@ -163,7 +163,7 @@ least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, const do
 	return MR_OK;
 }
 
-/* Of level 2. */
+/* Nodes of level 2. */
 static size_t
 count_folds(const mr_ctx *ctx, const mr_fit_surface *s)
 {
@@ -181,7 +181,7 @@ put_distances(const mr_fit_gap *before, const mr_fit_gap *after, mr_fit_result *
 	r->distance_max_after = after->max;
 }
 
-/* Where the result is poor: it folds, or the points, less their noise, are as far as the control mesh is
+/* Reports a poor result: it folds, or the points, less their noise, are as far as the control mesh is
  * coarse. */
 static void
 report(mr_ctx *ctx, const mr_fit_surface *s, double far, const mr_fit_result *r)
@@ -299,7 +299,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 		drop_outliers(ctx, &sampling, NEAR * edge, sorted, spacing, foot, &n, &r.outliers);
 	noise = is_local || sampling.usual == 0 ? 0 : sampling.noise / sampling.usual;
 	before = mr_fit_measure(ctx, foot, n);
-	/* made of that mesh it lies on it: passes would bend what is flat beside creases */
+	/* a control mesh made of that mesh lies on it: passes would bend flats beside creases */
 	if (of_mesh && crease && !is_local && opts->iterations == 0 && before.mean < NEAR * edge)
 		passes = 0;
 	r.folded_edges_before = count_folds(ctx, &s);

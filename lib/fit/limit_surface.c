@@ -172,7 +172,7 @@ corrected(const mr_v3 p[MR_FIT_PATCH], mr_v3 b, mr_v3 r)
 	return clamp(mr_vec(b.x - u - v, b.y + u, b.z + v));
 }
 
-/* From the nearest point of the triangles to that of the patch. */
+/* From the nearest point of the triangles to the patch's nearest point. */
 static void
 settle(const mr_fit_surface *s, mr_v3 q, mr_closest near, mr_fit_foot *foot)
 {

@@ -27,7 +27,7 @@ typedef struct mr_fit_surface {
 	mr_v3 *node; /* of m */
 } mr_fit_surface;
 
-/* Where a point stands: on a patch (a triangle of level 1), at barycentric coordinates. */
+/* The foot of a point: on a patch (a triangle of level 1), at barycentric coordinates. */
 typedef struct mr_fit_foot {
 	uint32_t face; /* of level 2, to walk from */
 	uint32_t patch;
@@ -44,13 +44,13 @@ typedef struct mr_fit_gap {
  * mr_loop_control. */
 mr_status mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, mr_fit_surface *s);
 
-/* Its nodes where the control vertices are at x: all, or those of the control faces that are marked. */
+/* Its nodes for control vertices at x: all, or the nodes of marked control faces. */
 void mr_fit_surface_move(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *x, const bool *which);
 
 /* The six nodes of a patch: its corners a, b, c, then the middles of ab, bc, ca. */
 void mr_fit_nodes(const mr_fit_surface *s, uint32_t patch, uint32_t node[MR_FIT_PATCH]);
 
-/* Those of all patches of a control face. */
+/* The nodes of all patches of a control face. */
 void mr_fit_slots(const mr_fit_surface *s, size_t face, uint32_t slot[MR_FIT_SLOTS]);
 
 /* The polynomials that belong to them. */

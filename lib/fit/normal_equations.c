@@ -19,7 +19,7 @@ static const double SMALL = 1e-9;
 
 /* ---- which control vertices are coupled ---- */
 
-/* Of each control face the vertices that its surface depends on: those that its nodes do. */
+/* The vertices that each control face's surface depends on, by its nodes. */
 static mr_status
 patches_of(mr_ctx *ctx, const mr_fit_surface *s, mr_sparse *patch)
 {
@@ -130,7 +130,7 @@ spread_basis(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Where corners have six neighbours each face has some 300 pairs. */
+/* With valence 6 each face has some 300 pairs. */
 static mr_status
 check_valences(mr_ctx *ctx, const mr_sparse *patch)
 {
@@ -215,8 +215,8 @@ row_of(const double *basis, size_t n, const mr_fit_foot *foot, double *row)
 		         w[3] * node[3 * n + i] + w[4] * node[4 * n + i] + w[5] * node[5 * n + i];
 }
 
-/* The direction in which a point's distance counts in full: the normal, or that of the distance where the
- * foot stands on the boundary. */
+/* The direction in which a point's distance counts in full: the normal, or towards the point if the foot is
+ * on the boundary. */
 static mr_v3
 direction_of(mr_v3 normal, mr_v3 r)
 {
@@ -298,7 +298,7 @@ gather(const fill_job *j)
 		}
 }
 
-/* What is above the diagonal, by what is below. */
+/* Mirrors the lower triangle. */
 static void
 mirror(mr_ctx *ctx, mr_fit_system *s)
 {
@@ -418,8 +418,8 @@ mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *p
 /* ---- solving ---- */
 
 /*
- * Of the solution, in the norm of the energy.  On 16 models 1e-2 takes 3 steps of 10 less and leaves up to 3
- * % more distance, 1e-4 takes 3 more and gains less than 0.1 %.
+ * Relative, in the norm of the energy.  1e-2 saves 3 steps of 10 and leaves up to 3 % more distance; 1e-4
+ * gains less than 0.1 %.
  */
 static const double ACCURACY = 1e-3;
 

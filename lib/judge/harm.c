@@ -16,7 +16,7 @@ typedef struct cell {
 	int at[3];
 } cell;
 
-/* Cells are marked in a set of bits by their hash: what is marked by chance is looked at in vain. */
+/* Cells are marked in a set of bits by their hash: a chance mark costs a vain look. */
 typedef struct cells {
 	double scale; /* 1 over the side of a cell */
 	uint32_t *bits;
@@ -104,10 +104,10 @@ typedef struct crowd {
 	mr_mesh then, now;
 	const mr_motion *m;
 	cells turned, gathered;
-	uint32_t *vertex; /* of those of then and now, once they are the crowd's alone */
+	uint32_t *vertex; /* of then and now, of the crowd alone */
 } crowd;
 
-/* Of faces that have turned against those around them the sum of unit normals is shorter. */
+/* Faces that turn against their neighbours shorten the sum of unit normals. */
 static bool
 turns_against(const mr_ring *r)
 {
@@ -359,7 +359,7 @@ list_faces(mr_ctx *ctx, const crowd *c, mr_tri *t)
 	return n;
 }
 
-/* The crowd becomes n faces t, and their corners, newly numbered; c->vertex: what they were. */
+/* The crowd becomes n faces t, and their corners, newly numbered; c->vertex: their old numbers. */
 static void
 keep_faces(mr_ctx *ctx, crowd *c, mr_tri *t, size_t n)
 {

@@ -1,4 +1,4 @@
-/* Which surface to compare with which: the layer worked on last with what it was, or was made of. */
+/* Which surface to compare with which: the layer worked on last with its former state or its source. */
 #include "judge/judge.h"
 
 #include "edit/detail.h"
@@ -35,7 +35,7 @@ read_regions(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint3
 	return mr_layer_has(f, layer, "region") ? mr_layer_region(ctx, f, layer, nv, region) : MR_OK;
 }
 
-/* Where base stood when mesh did: before its last pose, else as encoded; then->p NULL: not known. */
+/* Base's positions at the time of mesh's: before its last pose, else as encoded; then->p NULL: not known. */
 static mr_status
 base_then(mr_ctx *ctx, mr_frame *before, mr_frame *after, mr_mesh *then)
 {
@@ -81,7 +81,7 @@ judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m
 	return MR_OK;
 }
 
-/* Of each vertex over d the region of the control vertices that it lies between; free where these differ. */
+/* The region of the control vertices around each vertex over d; free where these differ. */
 static void
 regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, const uint32_t **region)
 {
@@ -162,7 +162,7 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 	return MR_OK;
 }
 
-/* What `layer` was, or was made of: the surface worked on last before; t NULL: none. */
+/* The former state or source of `layer`: the surface worked on last before; t NULL: none. */
 static mr_status
 surface_then(mr_ctx *ctx, mr_frame *before, const char *layer, mr_mesh *then)
 {
@@ -221,7 +221,7 @@ mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least)
 
 /* ---- columns that were there and are not any more ---- */
 
-/* What a file gave to a surface, by convention or not, or a user selected there. */
+/* Columns of a surface from a file or from a user's selection. */
 static bool
 is_given(const mr_column *c)
 {
@@ -232,8 +232,8 @@ is_given(const mr_column *c)
 	return !info || info->kind == MR_MEAN || info->kind == MR_LABEL || !strcmp(c->name, "region");
 }
 
-/* mesh and base have one selection; texture coordinates of vertices that become one are those of corners;
- * colors may have gone into a picture. */
+/* mesh and base have one selection; texture coordinates of merged vertices become corners'; colors may have
+ * gone into a picture. */
 static bool
 is_there(const mr_frame *before, const mr_frame *f, const mr_column *c)
 {

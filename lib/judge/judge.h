@@ -6,12 +6,12 @@
 
 typedef float mr_float4 __attribute__((vector_size(16)));
 
-/* The faces around a vertex: the sums of their unit normals, then and now, and behind each their number. */
+/* The faces around a vertex: the sums of their unit normals, then and now, each followed by their number. */
 typedef struct mr_ring {
 	mr_float4 then, now;
 } mr_ring;
 
-/* A surface whose vertices have moved, and what one look at each face tells of it. */
+/* A surface whose vertices have moved, and figures from one look at each face. */
 typedef struct mr_motion {
 	const mr_mesh *then;
 	const mr_v3 *now; /* then->nv */
@@ -29,7 +29,7 @@ typedef struct mr_motion {
 /* A motion of the same triangles.  In the arena. */
 mr_motion mr_motion_of(mr_ctx *ctx, const mr_mesh *then, const mr_v3 *now);
 
-/* What a surface stands on: base, or a control mesh. */
+/* The support of a surface: base, or a control mesh. */
 typedef struct mr_ground {
 	mr_mesh then;
 	const mr_v3 *now;
@@ -40,8 +40,8 @@ typedef struct mr_ground {
 /* Reports a finding of the surface, at a vertex or MR_NONE. */
 void mr_motion_found(mr_ctx *ctx, const mr_motion *m, mr_finding f, uint32_t vertex);
 
-/* More of it than there was.  What hangs together where it meets is near, and harm; far faces that meet may
- * be meant: a limb that meets another one, or a sheet that passes through the one beneath. */
+/* New self-intersections.  Near faces that meet, connected there, are harm; far faces that meet may be meant:
+ * a limb that meets another one, or a sheet that passes through the one beneath. */
 typedef struct mr_harm {
 	size_t folds;                /* edges, by more than 170 degrees */
 	size_t pairs, far;           /* of faces that intersect, near ones and others */
@@ -67,7 +67,7 @@ void mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g);
 /* Constrained vertices that are not where they belong, and the volume where handles only turn. */
 void mr_judge_pose(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, bool closed);
 
-/* A surface of other triangles against what it was made of. */
+/* A surface of other triangles against its source. */
 void mr_judge_remade(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now);
 
 #endif

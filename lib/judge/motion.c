@@ -1,4 +1,4 @@
-/* What a motion did to a surface. */
+/* Harm by a motion of a surface. */
 #include "judge/judge.h"
 
 #include "base/vectors.h"
@@ -6,7 +6,7 @@
 
 enum { LANES = 8 };
 
-/* The diagonal of some faces, nearly that of all. */
+/* The diagonal of some faces, nearly the diagonal of all. */
 static double
 diagonal_of(const mr_mesh *m)
 {

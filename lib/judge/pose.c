@@ -30,7 +30,7 @@ linear_part(const fit *f)
 	return mr_mat3_multiply(&yx, &xx);
 }
 
-/* That of fixed vertices is the identity. */
+/* The map of fixed vertices is the identity. */
 static void
 fit_maps(const mr_ground *g, size_t regions, size_t stride, fit *fits)
 {
@@ -71,7 +71,7 @@ map_of(const fit *f, mr_v3 from)
 static bool
 keeps_volume(const fit *fits, size_t regions, double far)
 {
-	const double little = 0.01;     /* change of volume, of what is rigid */
+	const double little = 0.01;     /* change of volume, of rigid parts */
 	const double least = MR_PI / 6; /* of a pull, which may change the volume, handles turn by less */
 	const fit *lowest = NULL;
 	bool moved = false, turned = false;
@@ -93,7 +93,7 @@ keeps_volume(const fit *fits, size_t regions, double far)
 
 enum { LOOKS = 1 << 14 };
 
-/* The volume of the closed surface as a share of what it was, by faces at equal strides. */
+/* The volume of the closed surface as a share of the old one, by faces at equal strides. */
 static double
 volume_share(const mr_motion *m)
 {

@@ -1,4 +1,4 @@
-/* A surface of other triangles against what it was: area, volume, distance, parts, intersections. */
+/* A surface of other triangles against its source: area, volume, distance, parts, intersections. */
 #include "judge/judge.h"
 
 #include "measure/gaps.h"
@@ -150,7 +150,7 @@ judge_distance(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, const mr_bv
 				  .at = g.at });
 }
 
-/* Where what was there intersects already, a coarser surface has fewer pairs of it, or some more. */
+/* If the source intersects itself already, a coarser surface has fewer pairs of it, or some more. */
 static void
 judge_intersections(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, const mr_bvh *bvh)
 {

@@ -16,7 +16,7 @@ enum { SAMPLES = 100000, EFFORT = 200000, GRAIN = 256, BATCH = 2048, SIDE_MOST =
 /* Below this share of the diagonal a difference of bounds is rounding. */
 static const double ROUNDING = 1e-12;
 
-/* A triangle and what is known of it: no point of it is farther than `bound`. */
+/* A triangle and its bound: no point of it is farther than `bound`. */
 typedef struct piece {
 	mr_v3 v[3];
 	uint32_t face; /* of the other surface, near its centroid */
@@ -36,7 +36,7 @@ radius(const mr_v3 v[3], mr_v3 c)
 	    fmax(mr_norm2(mr_sub(v[0], c)), fmax(mr_norm2(mr_sub(v[1], c)), mr_norm2(mr_sub(v[2], c)))));
 }
 
-/* The greatest distance of a corner to face f: that of no point of the triangle is greater. */
+/* The greatest distance of a corner to face f, and so of any point of the triangle. */
 static double
 convex_bound(const mr_mesh *b, uint32_t f, const mr_v3 v[3])
 {
@@ -49,7 +49,7 @@ convex_bound(const mr_mesh *b, uint32_t f, const mr_v3 v[3])
 	return sqrt(most);
 }
 
-/* What was measured at a point: the distance, the angle between the normals in degrees (NaN: none). */
+/* Measures of a point: the distance, the angle between the normals in degrees (NaN: none). */
 typedef struct sample {
 	double distance, angle, weight;
 } sample;
@@ -72,7 +72,7 @@ typedef struct job {
 
 /* ---- vertices and integrals ---- */
 
-/* Whether vertex i of a, which a face has, is where that of b is. */
+/* Whether vertex i of a, which a face has, coincides with vertex i of b. */
 static bool
 stays(const job *j, size_t i)
 {
@@ -98,7 +98,7 @@ deviation(mr_v3 a, mr_v3 b)
 	return mr_norm2(a) > 0 && mr_norm2(b) > 0 ? mr_angle(a, b) * 180 / MR_PI : NAN;
 }
 
-/* Measures the centroid of a piece; raises *bound where the piece may reach beyond what is measured. */
+/* Measures the centroid of a piece; raises *bound if the piece may reach beyond the centroid's distance. */
 static void
 measure_piece(
     const job *j, const mr_v3 v[3], mr_v3 normal, double area, double *most, sample *at, double *bound)
@@ -348,7 +348,7 @@ weigh(sample *s, size_t n)
 	return sum / weight;
 }
 
-/* Of all samples, those from a first: four quantiles each of a to b, b to a, both; at last of the angles. */
+/* Quantiles of all samples, a's first: four each of a to b, b to a, both; at last of the angles. */
 static void
 find_quantiles(sample *s, size_t from_a, size_t n, mr_comparison *c)
 {
@@ -590,8 +590,8 @@ typedef struct map_job {
 	double *distance;
 } map_job;
 
-/* The normal whose side tells inside from outside: of a face, of an edge the sum of both, of a vertex the
- * mean by angles (Baerentzen, Aanaes 2005). */
+/* The normal that separates inside from outside: of a face; of an edge the sum of both; of a vertex the mean
+ * by angles (Baerentzen, Aanaes 2005). */
 static mr_v3
 side_normal(const map_job *j, mr_place at)
 {

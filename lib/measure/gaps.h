@@ -1,5 +1,5 @@
-/* gaps.h -- how far points are from their surface, which shows what it lacks, and the surface from the
- * points, which shows what it has too much. */
+/* gaps.h -- how far points are from their surface, which shows missing parts, and the surface from the
+ * points, which shows excess. */
 #ifndef MR_MEASURE_GAPS_H
 #define MR_MEASURE_GAPS_H
 
@@ -16,10 +16,10 @@ typedef struct mr_gap_cloud {
 	double usual; /* spacing of the sampling */
 } mr_gap_cloud;
 
-/* Of n distances, which are reordered; unmeasured of none. */
+/* Statistics of n distances, which are reordered; unmeasured if n is 0. */
 mr_gap mr_gap_of(double *distance, size_t n);
 
-/* Where a gap is widest for how the points lie there. */
+/* The widest gap relative to the local spacing. */
 typedef struct mr_gap_spot {
 	double wide; /* in spacings: 0 of none */
 	mr_v3 at;
@@ -46,7 +46,7 @@ typedef struct mr_mesh_gaps {
 } mr_mesh_gaps;
 
 /* Adds to gaps how far places of `from`, so many in equal parts of its area, and as many of its corners are
- * from what bvh is of; off: what is too far. */
+ * from bvh's surface; off: the limit. */
 void mr_gaps_add(
     mr_ctx *ctx, const mr_mesh *from, const mr_bvh *bvh, size_t samples, double off, mr_mesh_gaps *gaps);
 

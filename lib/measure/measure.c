@@ -295,7 +295,7 @@ keep_interior(const mr_mesh *m, const mr_edges *edges, bool *boundary, double *a
 	return n;
 }
 
-/* What is rounding of a ratio is zero. */
+/* Rounds a ratio's rounding error to zero. */
 static double
 tidy(double ratio)
 {

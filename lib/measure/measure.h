@@ -1,5 +1,5 @@
 /* measure.h -- the parts of the figures of a mesh and of a cloud (mr.h).  Any mesh with valid indices and
- * finite positions; what is not defined is NaN. */
+ * finite positions; undefined figures are NaN. */
 #ifndef MR_MEASURE_H
 #define MR_MEASURE_H
 

@@ -227,7 +227,7 @@ column_json(mr_text *t, const mr_column *c)
 	mr_text_add(t, "}");
 }
 
-/* The columns of a layer; "": those of none. */
+/* The columns of a layer; "": columns of no layer. */
 static void
 columns(const report *r, const char *layer)
 {

@@ -3,7 +3,7 @@
 
 #include "mesh/edges.h"
 
-/* Of an edge, at least, from the line to its ends: no face becomes a needle for that. */
+/* The least share of an edge from the line to its ends: no face becomes a needle for that. */
 static const double LEAST = 0.05;
 
 typedef struct clip {
@@ -44,7 +44,7 @@ keep_vertices(clip *c)
 		}
 }
 
-/* Where the line crosses h, the same from both sides. */
+/* The crossing of the line and h, the same from both sides. */
 static mr_v3
 place(const clip *c, uint32_t h)
 {
@@ -74,7 +74,7 @@ add(clip *c, uint32_t a, uint32_t b, uint32_t d)
 	c->t[c->out.nf++] = (mr_tri){ { a, b, d } };
 }
 
-/* Of a face of cut whose corner at the start of h is on the other side than both others. */
+/* Cuts a face whose corner at the start of h is on the other side than both others. */
 static void
 cut_face(clip *c, uint32_t h)
 {

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-/* Keeps what is below zero of m, cut where value (nv) changes its sign: a manifold stays one, as the line
+/* Keeps the part of m below zero, cut where value (nv) changes its sign: a manifold stays one, as the line
  * keeps a twentieth of an edge away from vertices.  Vertices without a face go.  out: in the arena. */
 void mr_mesh_clip(mr_ctx *ctx, const mr_mesh *m, const double *value, mr_mesh *out);
 

@@ -1,4 +1,4 @@
-/* Splits, collapses and flips of half-edges, and what they need to know of their surroundings. */
+/* Splits, collapses and flips of half-edges, and their tests of the surroundings. */
 #include "mesh/dynmesh.h"
 
 #include "base/parallel.h"
@@ -502,7 +502,7 @@ first_place(const mr_dyn *d, uint32_t v)
 	return d->out[v];
 }
 
-/* Room for what splits add, more than they need but seldom: what is not used of it costs no memory. */
+/* Room for splits, nearly always enough: unused pages cost no memory. */
 static size_t
 ample(size_t n)
 {

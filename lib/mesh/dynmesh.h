@@ -149,8 +149,8 @@ mr_v3 mr_dyn_middle_around(const mr_dyn *d, uint32_t v);
 /* False where both faces have the same vertices: the middle would be joined twice to the third. */
 bool mr_dyn_can_split(const mr_dyn *d, uint32_t h);
 
-/* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
- * Only where mr_dyn_can_split. */
+/* Splits the edge of h at position p; *middle is the new vertex, whose place on the source is h's start's or
+ * curve's.  Only if mr_dyn_can_split. */
 mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
 
 /* Room for so many splits without memory. */
@@ -162,7 +162,7 @@ void mr_dyn_lend(mr_dyn *d, size_t splits, mr_dyn *part);
 /* Holes that part made or did not use are d's again, and part has none. */
 void mr_dyn_take_back(mr_dyn *d, mr_dyn *part);
 
-/* The arrays of d, which may have moved, are those of part. */
+/* Points d at the arrays of part, which may have moved. */
 void mr_dyn_share(const mr_dyn *d, mr_dyn *part);
 
 /* True where the start of h can be merged into its end and the mesh stays a manifold of the same topology.
@@ -178,7 +178,7 @@ bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
 /* Replaces the edge of h by the one across, mr_he_next(h).  Only where mr_dyn_can_flip. */
 void mr_dyn_flip(mr_dyn *d, uint32_t h);
 
-/* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
+/* Closes the holes; the rest keeps its order.  Gives room back if a quarter of it is unused. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 
 /* Renumbers vertices along a Z curve, faces by their lowest vertex.  Only after mr_dyn_compact. */

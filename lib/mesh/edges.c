@@ -1,4 +1,4 @@
-/* Half-edges sorted by their ends: those of an edge stand together. */
+/* Half-edges sorted by their ends: an edge's stand together. */
 #include "mesh/edges.h"
 
 #include "base/parallel.h"

@@ -1,5 +1,5 @@
 /* fold.h -- a fold is an edge at which the normals of two faces are more than 170 degrees apart: MR_FOLD.
- * What moves vertices stops short of it, at MR_NEAR_FOLD: what is folded by 150 degrees is folded over by the
+ * Moves of vertices stop short of it, at MR_NEAR_FOLD: an edge folded by 150 degrees would fold over in the
  * next steps. */
 #ifndef MR_MESH_FOLD_H
 #define MR_MESH_FOLD_H

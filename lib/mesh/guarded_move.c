@@ -79,7 +79,7 @@ mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to
 /* Cosine of 60 degrees, by which a face may turn at once: at 90 wraps of few points fold in. */
 static const double TURN = 0.5;
 
-/* Of 2 degrees: a fold that comes turns one of its faces by more, and most faces are not to be looked at. */
+/* For 2 degrees: a new fold turns one of its faces by more, so most faces need no look. */
 static const double STILL = 0.999390827019096;
 
 typedef struct unfolded {

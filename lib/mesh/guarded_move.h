@@ -1,6 +1,6 @@
 /* guarded_move.h -- moves of vertices that leave no face bad.  Round by round the corners of faces that would
- * be bad go half as far, after some rounds they stay.  Where every face is good that stays as it is, the move
- * is good.  Deterministic for any number of threads; linear time. */
+ * be bad go half as far, after some rounds they stay.  If every unmoved face is good, the move is good.
+ * Deterministic for any number of threads; linear time. */
 #ifndef MR_MESH_GUARDED_MOVE_H
 #define MR_MESH_GUARDED_MOVE_H
 
@@ -10,9 +10,9 @@ typedef struct mr_guard {
 	const mr_tri *t; /* nf faces, some of which may be none: their first corner is MR_NONE */
 	mr_topology topo;
 	size_t nv, nf;
-	unsigned halves; /* rounds in which what is held back goes half as far; in later ones it stays */
-	/* What is bad of a face may depend on how its corners and those of its neighbours move.  Where it
-	 * depends on more, `look` looks at the whole surface first, each time; NULL: it does not. */
+	unsigned halves; /* rounds in which held vertices go half as far; in later ones they stay */
+	/* A face is judged by its own and its neighbours' corners.  If more matters, `look` first looks at
+	 * the whole surface, each time; NULL: no need. */
 	mr_status (*look)(mr_ctx *ctx, void *arg);
 	bool (*is_bad)(const void *arg, uint32_t f);
 	void *arg;

@@ -15,7 +15,7 @@ has_others(const mr_frame *f, const char *layer)
 	return false;
 }
 
-/* Where the layer's line begins; n: it has none. */
+/* The start of the layer's line; n: it has none. */
 static size_t
 place_of(const char *text, size_t n, const char *layer)
 {
@@ -65,7 +65,7 @@ mr_layer_followed(mr_ctx *ctx, mr_frame *f, const char *layer)
 	return reorder(ctx, f, layer, false);
 }
 
-/* What is to be done where what was done to a layer shows in no surface yet, with what that is. */
+/* The command that makes a pending change of a layer show in a surface. */
 static mr_remedy
 missing_tools(const mr_frame *f, const char *layer, const char **what)
 {

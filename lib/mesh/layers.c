@@ -4,8 +4,8 @@
 #include "base/text.h"
 #include "mesh/normals.h"
 
-/* What goes stale when a layer changes, beside what refers to its triangles: its own columns (layer "="),
- * another's, or all of a layer (name NULL).  `changed` NULL: any layer. */
+/* Columns that go stale when a layer changes, beside references to its triangles: its own columns (layer
+ * "="), another's, or all of a layer (name NULL).  `changed` NULL: any layer. */
 static const struct {
 	mr_change change;
 	const char *changed, *layer, *name;
@@ -231,7 +231,7 @@ mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh 
 	return check_size(ctx, m);
 }
 
-/* What is stale after a change of shape or connectivity is so after a greater one. */
+/* A column stale after a change of shape or connectivity is stale after a greater one. */
 static bool
 concerns(mr_change change, const char *layer, size_t i)
 {
@@ -364,7 +364,7 @@ copy_normals(
 	return MR_OK;
 }
 
-/* The same vertices and triangles at other places: normals turn with the surface, what is stale goes. */
+/* The same vertices and triangles at other places: normals turn with the surface, stale columns go. */
 static mr_status
 move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 *p, size_t nv)
 {
@@ -496,7 +496,7 @@ mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *l
 		}
 		n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", i ? " nor " : "", layers[i]);
 	}
-	do /* mesh is what most pipes begin with; else what is looked for first */
+	do /* most pipes begin with mesh; else the first in search order */
 		i--;
 	while (i && strcmp(layers[i], "mesh") != 0);
 	return mr_layer_missing(ctx, f, names, layers[i]);

@@ -36,7 +36,7 @@ mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr
 /* Drops what the change makes stale, of the layer and of others. */
 void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 
-/* Whether the layer has moved since it was encoded, and what is over it has not followed. */
+/* Whether the layer has moved since it was encoded, and its dependent layer has not followed. */
 mr_status mr_layer_is_posed(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
 
 /* Whether mesh has detail over base that no mr-decode has served yet. */

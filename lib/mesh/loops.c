@@ -88,7 +88,7 @@ mr_loops_find(mr_ctx *ctx, const mr_mesh *m, mr_loops *loops)
 
 enum { MOST = 256 };
 
-/* What triangles that span corners i to j cost: the largest angle, as minus its cosine, then the area. */
+/* The cost of triangles that span corners i to j: the largest angle, as minus its cosine, then the area. */
 typedef struct cost {
 	double bend, area;
 	uint32_t apex;
@@ -134,7 +134,7 @@ bend_of(mr_v3 m, mr_v3 n)
 	return mn > 0 ? -mr_dot(m, n) / mn : -1;
 }
 
-/* The cost of triangle (i, j, apex) and of what is beyond its sides. */
+/* The cost of triangle (i, j, apex) and of the triangles beyond its sides. */
 static cost
 cost_with(const span *s, size_t i, size_t j, size_t apex)
 {

@@ -38,7 +38,7 @@ mr_layer_to_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const char *name
 	return mr_layer_put(ctx, f, m->name, to, corner, m->nf);
 }
 
-/* What differs between vertices that become one is the corners' from now on, or the first vertex's counts. */
+/* Values that differ between merged vertices become the corners', or the first vertex's counts. */
 static mr_status
 keep_differences(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *map, const uint32_t *of)
 {
@@ -126,8 +126,8 @@ mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, const boo
 
 /* ---- repair ---- */
 
-/* What corners have, in the order of the corners that the faces have now; normals of a file that is not
- * oriented alike say nothing. */
+/* Columns of corners, in the order of the corners that the faces have now; normals of an inconsistently
+ * oriented file are ignored. */
 static mr_status
 turn_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *flipped)
 {

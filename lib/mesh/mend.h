@@ -5,12 +5,12 @@
 #include "mesh/layers.h"
 #include "mesh/repair.h"
 
-/* What vertices have becomes what corners have: texcoord or normal. */
+/* Turns a column of vertices into one of corners: texcoord or normal. */
 mr_status mr_layer_to_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const char *name) MR_WARN_UNUSED;
 
 /* Joins vertices within eps (0: equal ones): the lowest gives position and attributes; texture coordinates
- * and normals that differ become those of corners.  Faces that lose a corner go.  may: which may join others;
- * NULL: all.  joined: how many went. */
+ * and normals that differ become corners'.  Faces that lose a corner go.  may: which may join others; NULL:
+ * all.  joined: how many went. */
 mr_status mr_layer_weld(
     mr_ctx *ctx, mr_frame *f, const char *layer, double eps, const bool *may, size_t *joined) MR_WARN_UNUSED;
 

@@ -82,7 +82,7 @@ mr_has_corner(mr_tri t, uint32_t v)
 	return t.v[0] == v || t.v[1] == v || t.v[2] == v;
 }
 
-/* Where the corners of face f are. */
+/* The places of face f's corners. */
 static inline void
 mr_corners(const mr_mesh *m, size_t f, mr_v3 p[3])
 {
@@ -133,8 +133,8 @@ double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
 /* The volume that the faces enclose, positive where their normals point outward. */
 double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
-/* Where the mesh is: the corners of its faces, of one without faces the vertices.  A vertex that no face has,
- * as at the origin of a model that is far from it, says nothing of the surface. */
+/* The box of the mesh: of its faces' corners, or without faces of its vertices.  An isolated vertex, as at
+ * the origin of a far model, does not count. */
 static inline size_t
 mr_mesh_places(const mr_mesh *m)
 {
@@ -158,7 +158,7 @@ mr_same_triangles(const mr_mesh *a, const mr_mesh *b)
 /* The bounding box of its places. */
 mr_box mr_mesh_box(const mr_mesh *m);
 
-/* Of that box: the unit of every relative length and error. */
+/* The diagonal of that box: the unit of every relative length and error. */
 double mr_mesh_diagonal(const mr_mesh *m);
 
 /* A length that is none: `share` of the diagonal, at least the rounding of coordinates. */

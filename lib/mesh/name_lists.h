@@ -4,12 +4,12 @@
 
 #include "mesh/layers.h"
 
-/* Where the lines of a text begin, count + 1, each behind a newline; in the arena, over the text. */
+/* Where the lines of a text begin, count + 1, each after a newline; in the arena, over the text. */
 void mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count);
 
 enum { MR_NAMINGS = 3 };
 
-/* The names of the columns; the lists are those of text. */
+/* The names of the columns; the lists are text's. */
 typedef struct mr_naming {
 	const char *column, *list;
 } mr_naming;

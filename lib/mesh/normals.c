@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/rotation.h"
 
-/* What became of a face. */
+/* The outcome for a face. */
 typedef struct turn {
 	mr_mat3 rotation;
 	double area; /* 0: it says nothing */
@@ -61,7 +61,7 @@ turn_faces(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* The normal n of vertex v, or of those of its corners that have it.  The sum's direction, its own length. */
+/* Sets the normal n of vertex v, or of its corners that share it: the sum's direction, its own length. */
 static mr_v3
 turned(const turning *j, size_t v, mr_v3 n)
 {

@@ -133,7 +133,7 @@ clip(polygon *g, size_t i, mr_tri *t)
 		g->reflex[c] = cross(g->q[a], g->q[c], g->q[g->next[c]]) <= 0;
 }
 
-/* Clips ears in turn; the two neighbours of a clipped one line up again.  Where no ear is left, as the
+/* Clips ears in turn; the two neighbours of a clipped one line up again.  If no ear is left, because the
  * polygon is not simple or rounding hides one, the next corner goes. */
 static void
 clip_ears(polygon *g, mr_tri *t)

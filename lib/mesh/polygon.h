@@ -18,7 +18,7 @@ typedef struct mr_polygons {
 	size_t most;   /* corners of a face */
 } mr_polygons;
 
-/* Where the corners of face i begin; those of the last end with `count`. */
+/* The first corner of face i; the last face's corners end with `count`. */
 static inline size_t
 mr_polygon_begin(const mr_polygons *p, size_t i)
 {
@@ -32,8 +32,8 @@ mr_polygon_corner(const mr_polygons *p, size_t k)
 	return p->corner ? p->corner[k] : (uint32_t)k;
 }
 
-/* The polygons of successive triangles of the same number (the column `polygon`): their outline.  Where that
- * meets a vertex twice, or leaves one out, they come as triangles.  number: NULL where all are triangles. */
+/* The polygons of successive triangles of the same number (the column `polygon`): their outline.  If that
+ * meets a vertex twice, or leaves one out, they come as triangles.  number: NULL if all are triangles. */
 void mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out);
 
 #endif

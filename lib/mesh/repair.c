@@ -91,7 +91,7 @@ by_angle(const void *a, const void *b)
 }
 
 /* Faces around an edge by angle: the solid lies between a face that runs along the edge and, going round
- * against it, the next, where that runs the other way; these are joined.  What is left over gets a border. */
+ * against it, the next, if that runs the other way; these are joined.  The others get a border. */
 static void
 join_wedges(surface *s, const uint32_t *he, size_t n)
 {
@@ -149,7 +149,7 @@ cut(surface *s, uint32_t h)
 	s->r.cut_edges++;
 }
 
-/* What a face adds to six times the volume of its part, seen from o. */
+/* A face's part of six times the volume, seen from o. */
 static double
 below(const surface *s, uint32_t f, mr_v3 o)
 {
@@ -159,7 +159,7 @@ below(const surface *s, uint32_t f, mr_v3 o)
 	return mr_dot(mr_sub(p[v[0]], o), mr_cross(mr_sub(p[v[1]], o), mr_sub(p[v[2]], o)));
 }
 
-/* Six times the volume below the faces, as turned: its sign tells inside from outside. */
+/* Six times the volume below the faces, as turned: its sign separates inside from outside. */
 static double
 volume(const surface *s, const uint32_t *face, size_t n, const bool *turned)
 {

@@ -9,7 +9,7 @@
  * use; *count: how many. */
 void mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count);
 
-/* What a repair did. */
+/* The counts of a repair. */
 typedef struct mr_repair_report {
 	size_t degenerate;     /* faces dropped: a vertex twice, or no area */
 	size_t duplicate;      /* faces dropped: the vertices of an earlier one */

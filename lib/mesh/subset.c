@@ -1,7 +1,7 @@
 /* A layer cut down to some of its rows: columns are gathered, triangles get the new numbers. */
 #include "mesh/subset.h"
 
-/* Behind the triangles of the polygon that triangle i begins: those behind each other with one number. */
+/* The end of the run of triangles from i on that are one polygon: successive ones with one number. */
 static size_t
 polygon_end(const uint32_t *polygon, size_t nf, size_t i)
 {
@@ -78,7 +78,7 @@ mr_layer_gather(mr_ctx *ctx, mr_frame *f, const char *layer, char element, const
 	char name[MR_LAYER_MAX + 1];
 	mr_carried c;
 
-	snprintf(name, sizeof name, "%s", layer); /* which may be that of a column */
+	snprintf(name, sizeof name, "%s", layer); /* which may point into a column */
 	for (size_t i = 0; i < f->count; i++) {
 		if (strcmp(f->columns[i].layer, name) || f->columns[i].shape.element != element)
 			continue;
@@ -122,7 +122,7 @@ mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 	if (t)
 		MR_TRY(renumber_faces(ctx, f, layer, s));
 	mr_layer_renumbered(f, layer);
-	if (detail) /* what is left is still over the base on which it was encoded */
+	if (detail) /* the rest is still over the base on which it was encoded */
 		MR_TRY(mr_frame_pass(ctx, f, &on));
 	return mr_layer_worked(ctx, f, layer);
 }

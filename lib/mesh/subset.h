@@ -4,7 +4,7 @@
 
 #include "mesh/layers.h"
 
-/* What is kept, in ascending order. */
+/* The kept rows, in ascending order. */
 typedef struct mr_subset {
 	const uint32_t *vertex, *face; /* nv, nf */
 	size_t nv, nf;

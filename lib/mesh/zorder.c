@@ -69,7 +69,7 @@ end_of_cell(const uint32_t *key, const uint32_t *order, size_t first, size_t n)
 	return end;
 }
 
-/* Puts those of one cell in order, cell by cell. */
+/* Sorts the points of one cell, cell by cell. */
 static void
 sort_cells(mr_ctx *ctx, const mr_v3 *p, const uint32_t *key, size_t n, uint32_t *order)
 {

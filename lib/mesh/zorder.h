@@ -7,7 +7,7 @@
 enum { MR_ZORDER_CELLS = 1024 };
 
 /* order[i]: the index of the i-th of n finite points along the Z curve over `cells` a side, at most
- * MR_ZORDER_CELLS; those of one cell by x, y, z, then by index.  order: n < 2^32, the caller's. */
+ * MR_ZORDER_CELLS; points of one cell by x, y, z, then by index.  order: n < 2^32, the caller's. */
 void mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order);
 
 /* The points in that order, on the finest grid.  sorted: n, the caller's. */

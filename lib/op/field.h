@@ -1,5 +1,5 @@
-/* field.h -- how far values over a surface are from what each of its faces says of them (Hoppe 1999, with the
- * best values put in).  Of the offset from an origin that the holder knows. */
+/* field.h -- how far values over a surface are from each face's linear field (Hoppe 1999, with the best
+ * values put in), relative to the holder's origin. */
 #ifndef MR_OP_FIELD_H
 #define MR_OP_FIELD_H
 
@@ -59,7 +59,7 @@ mr_field_sum(const mr_field *a, const mr_field *b)
 	return r;
 }
 
-/* Adds to q what is left where the values are the best: the sum of squares less that of the means. */
+/* Adds to q the residual for the best values: the sum of squares minus the means'. */
 static inline void
 mr_field_rest(const mr_field *f, mr_quadric *q)
 {

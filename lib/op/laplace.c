@@ -101,7 +101,7 @@ mr_laplace_build(mr_ctx *ctx, const mr_mesh *m, mr_sparse *l)
 
 	if (m->nv > INT32_MAX - 1)
 		return mr_fail(ctx, MR_ERANGE, "%s: %zu vertices are too many", m->name, m->nv);
-	r.index = MR_NEW(ctx, 6 * m->nf + m->nv, int); /* at most: what is there is about half */
+	r.index = MR_NEW(ctx, 6 * m->nf + m->nv, int); /* an upper bound: about twice the real size */
 	mark = mr_mark_take(ctx);
 	mr_adjacency_build(ctx, m, &around);
 	for (size_t v = 0; v < m->nv; v++)

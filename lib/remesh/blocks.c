@@ -108,7 +108,7 @@ look_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Finds what is due, on all threads, which waits for the rest.  Returns of how many faces. */
+/* Queues the due edges for the rest, on all threads.  Returns their number of faces. */
 static size_t
 look_at_all(mr_ctx *ctx, const mr_dyn *d, const mr_edge_work *work, mr_edge_queue *q)
 {
@@ -186,7 +186,7 @@ block_of(const mr_dyn *d, const mr_edge_queue *q, size_t f)
 	return MR_NONE;
 }
 
-/* Lets what is due wait in its block. */
+/* Queues the due edges in their block. */
 static void
 distribute(const mr_dyn *d, mr_edge_queue *q, mr_part *part)
 {
@@ -249,7 +249,7 @@ lacks_room(const mr_dyn *d, const blocks *w)
 	return wanted > 0 && d->nf + 2 * wanted < w->work->most;
 }
 
-/* What still waits in a block that has no room waits for the rest. */
+/* Moves the edges of a block without room to the rest. */
 static void
 give_up(mr_edge_queue *q, const mr_part *p)
 {
@@ -284,7 +284,7 @@ serve_blocks(mr_ctx *ctx, mr_dyn *d, mr_edge_queue *q, blocks *w, mr_part *rest)
 	return MR_OK;
 }
 
-/* What waits for the rest. */
+/* The edges left for the rest. */
 static void
 gather(const mr_dyn *d, mr_part *rest)
 {

@@ -44,7 +44,7 @@ typedef struct mr_edge_work {
 /* Puts neighbours close together in memory, and divides them into blocks. */
 mr_status mr_blocks_divide(mr_ctx *ctx, mr_dyn *d);
 
-/* What mr_serve_edges without splits needs of the workspace. */
+/* The workspace of mr_serve_edges without splits. */
 void mr_edge_queue_reserve(mr_ctx *ctx, const mr_dyn *d, mr_edge_queue *queue);
 
 /* Serves the half-edges that are due, and those that are asked for.  done: added to. */

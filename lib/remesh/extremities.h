@@ -2,8 +2,8 @@
  * extremities.h -- keeps the tips of thin limbs when remeshing.
  *
  * Tangential relaxation draws vertices back from tips that are thinner than an edge: the vertices stay on
- * the surface, but the surface's tip is left outside.  A tip shows in its Gaussian curvature: that of a
- * hemisphere, 2 pi, lies within an edge length.
+ * the surface, but the surface's tip is left outside.  A tip shows in its Gaussian curvature: a hemisphere's,
+ * 2 pi, lies within an edge length.
  */
 #ifndef MR_REMESH_EXTREMITIES_H
 #define MR_REMESH_EXTREMITIES_H

@@ -14,12 +14,12 @@ typedef struct mender {
 	const mr_remesh_source *s;
 	uint8_t *mark; /* for the link condition */
 	bool *asked;   /* faces that may be flawed: the others were not, and nothing near them has changed */
-	double least;  /* shape of what is made */
+	double least;  /* shape of new faces */
 	size_t left;   /* faces that may still be tried */
 	bool last;     /* resort: tips give way, and a merge may leave as many flaws on fewer faces */
 } mender;
 
-/* Where a vertex is, was or may be. */
+/* Present, former and permitted places of a vertex. */
 typedef struct spot {
 	mr_v3 p;
 	uint32_t at;
@@ -180,7 +180,7 @@ mend_vertex(mender *w, uint32_t v)
 	return false;
 }
 
-/* Of the two faces at h, around their four corners. */
+/* Counts the two faces at h, around their four corners. */
 static unsigned
 flaws_beside(const mender *w, uint32_t h)
 {

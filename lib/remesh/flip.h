@@ -8,10 +8,10 @@
 #include "mesh/dynmesh.h"
 
 /*
- * Flips every edge whose flip lowers the sum of squared deviations from valence 6 (4 on the
- * boundary), then lets each dislocation, an adjacent pair of a 5- and a 7-valent vertex,
- * glide for up to `reach` flips that keep the sum, if at the end of them one lowers it.  No flip turns
- * a face over or makes a needle.  *flips: how many, those of glides that came to nothing not counted.
+ * Flips every edge whose flip lowers the sum of squared deviations from valence 6 (4 on the boundary), then
+ * lets each dislocation, an adjacent pair of a 5- and a 7-valent vertex, glide for up to `reach` flips that
+ * keep the sum, if at the end of them one lowers it.  No flip turns a face over or makes a needle.  *flips:
+ * how many, without glides that came to nothing.
  */
 void mr_regularize(mr_ctx *ctx, mr_dyn *d, unsigned reach, size_t *flips);
 

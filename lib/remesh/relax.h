@@ -47,8 +47,8 @@ bool mr_remesh_against(
 /* Passes of relaxation over all vertices. */
 mr_status mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts *o);
 
-/* Mixed Voronoi areas (Meyer et al. 2003) of the vertices in squares of `unit`, a length like that of edges,
- * as precise as floats; 0 for dead ones.  area: d->nv values, the caller's. */
+/* Mixed Voronoi areas (Meyer et al. 2003) of the vertices in squares of `unit`, a length like the edges', as
+ * precise as floats; 0 for dead ones.  area: d->nv values, the caller's. */
 void mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double unit, double *area);
 
 #endif

@@ -100,7 +100,7 @@ equalize_areas(remesher *r)
 }
 
 /*
- * What is too dense is thinned before the first split, which bisects far more edges than it must; edges that
+ * Dense parts are thinned before the first split, which bisects far more edges than it must; edges that
  * cannot be merged yet may be after the first round.
  */
 static void
@@ -146,7 +146,7 @@ tidy(remesher *r)
  * glide shears the rows it passes more than the next relaxation can undo.
  *
  * The first round bisects edges that are much too long step by step, all to twice the length before any to
- * the length, and what is too dense goes in between: bisected all at once a sliver leaves slivers like it,
+ * the length, and dense parts are thinned in between: bisected all at once a sliver leaves slivers like it,
  * four times as many for edges half as long, whatever its area.
  */
 static mr_status
@@ -269,8 +269,8 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo, const uint8_t *se
 }
 
 /*
- * Bytes a face, beside those of the source: at the first split, when it is the most, 81 to 86 of each that is
- * demanded were measured at a million, and up to 125 where flaws are mended.
+ * Bytes a face, beside the source's: at the peak, the first split, 81 to 86 a demanded face, and up to 125
+ * where flaws are mended.
  */
 static const double FACE_BYTES = 125;
 
@@ -316,9 +316,7 @@ check_demand(remesher *r)
 static mr_status
 run(remesher *r)
 {
-	enum {
-		SETTLED = 2
-	}; /* the rounds before make the density what it is to be, which may be less even */
+	enum { SETTLED = 2 }; /* the rounds before reach the target density, which may be less even */
 	double before = INFINITY, after, had = 1;
 	size_t rounds = r->o->rounds;
 
@@ -367,8 +365,8 @@ map_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Where each vertex lies on the source: on its face the nearest point, which without projection may be
- * elsewhere. */
+/* The place of each vertex on the source: the nearest point of its face, which may differ without
+ * projection. */
 static void
 map_to_source(remesher *r, mr_places *map)
 {

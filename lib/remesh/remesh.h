@@ -6,8 +6,8 @@
 
 #include "space/source_map.h"
 
-/* Edges that are kept as curves.  Of half-edges of what is remeshed, marks; of those of the result, in the
- * arena, the one on whose curve each is, MR_NONE of most. */
+/* Edges that are kept as curves.  Marks of the input's half-edges; for the result's half-edges, in the arena,
+ * the input's whose curve each is on, MR_NONE for most. */
 typedef struct mr_kept {
 	uint8_t *seam;
 	const uint32_t *along;

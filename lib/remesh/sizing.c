@@ -71,7 +71,7 @@ largest_curvature(const mr_dyn *d, const sums *s, uint32_t v)
 	return 0;
 }
 
-/* Where b may be at most, given a. */
+/* The bound of b, given a. */
 static bool
 limit(const mr_mesh *m, double *length, uint32_t a, uint32_t b)
 {
@@ -137,7 +137,7 @@ mr_sizing_grade(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double *
 	}
 }
 
-/* Of an edge whose middle is `error` away from an arc of that curvature. */
+/* The length of an edge whose middle is `error` away from an arc of that curvature. */
 static double
 length_for(double curvature, double error, double shortest, double longest)
 {
@@ -146,7 +146,7 @@ length_for(double curvature, double error, double shortest, double longest)
 	return squared > shortest * shortest ? fmin(sqrt(squared), longest) : shortest;
 }
 
-/* Of the uniform length; of 132,547 edges of 120 models sharper than 40 degrees 399 are gone without. */
+/* Relative to the uniform length; without it some edges sharper than 40 degrees are lost. */
 static const double OFF = 0.125, SHORTEST = 1.0 / 8;
 
 void

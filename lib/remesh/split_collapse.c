@@ -20,14 +20,14 @@ static const double WIDE = 0.2588190451025207, NARROW = 0.7071067811865476; /* c
 typedef struct resampler {
 	mr_dyn *d;
 	const mr_remesh_source *s;
-	double coarser;  /* what is too long is so by as much */
+	double coarser;  /* too long by as much */
 	size_t most;     /* faces that there may be */
 	uint8_t *mark;   /* for the link condition */
 	uint8_t *strung; /* of each vertex: it was merged though an edge there is too long */
 	mr_part *part;   /* whose mesh d is */
 } resampler;
 
-/* What the part has done. */
+/* The part's counts. */
 enum { DONE, STRUNG };
 
 static double
@@ -98,7 +98,7 @@ opposite_cosine(const mr_dyn *d, uint32_t h)
 	return mr_dot(a, b) / sqrt(mr_norm2(a) * mr_norm2(b));
 }
 
-/* True where neither h's edge nor what is opposite to it is on a curve. */
+/* True where neither h's edge nor its opposite is on a curve. */
 static bool
 is_inside(const mr_dyn *d, uint32_t h)
 {
@@ -131,7 +131,7 @@ too_short(const resampler *r, uint32_t h)
 	       opposite_cosine(d, d->twin[h]) > NARROW;
 }
 
-/* The place of a new vertex, first that of an end of its edge: a walk from there may not get to it. */
+/* The place of a new vertex, first at an end of its edge: a walk from there may not get to it. */
 static void
 place_middle(resampler *r, uint32_t m)
 {
@@ -282,10 +282,10 @@ length_is_good(mr_v3 other, mr_v3 v, mr_v3 p, double longest2, bool *strung)
 }
 
 /*
- * True where moving v to p turns no face around v that stays (those with vertex `gone` do not) by
- * more than 60 degrees or away from `facing`, makes no needle worse and no edge longer than `longest`, but
- * for what is so already: `*strung` then.  The face of such an edge stays in its plane: far from here it
- * might meet the other side of a plate.
+ * True where moving v to p turns no face around v that stays (those with vertex `gone` do not) by more than
+ * 60 degrees or away from `facing`, makes no needle worse and no edge longer than `longest`, except existing
+ * ones: `*strung` then.  The face of such an edge stays in its plane: far from here it might meet the other
+ * side of a plate.
  */
 static bool
 move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, double longest2, bool *strung)
@@ -330,8 +330,8 @@ longest_at(const resampler *r, uint32_t v, double slack, double longest2)
 	return fmin(longest2, mr_square(slack * mr_remesh_length(r->s, r->d, v)));
 }
 
-/* True where moving v to p makes an edge to a neighbour of it too long, as most merges that are refused
- * would: told without a normal. */
+/* True where moving v to p makes an edge to a neighbour of it too long, as most refused merges do: found
+ * without a normal. */
 static bool
 overreaches(const resampler *r, uint32_t v, uint32_t gone, mr_v3 p, double slack, double longest2)
 {
@@ -349,7 +349,7 @@ overreaches(const resampler *r, uint32_t v, uint32_t gone, mr_v3 p, double slack
 	return false;
 }
 
-/* Where the merged vertex goes: the middle, of a curve on it, or the end that must stay.  *at: b's place
+/* The place of the merged vertex: the middle, of a curve on it, or the end that must stay.  *at: b's place
  * then. */
 static mr_v3
 merged_position(const mr_dyn *d, const mr_remesh_source *s, uint32_t a, uint32_t b, uint32_t *at)

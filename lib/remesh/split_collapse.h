@@ -9,7 +9,7 @@
 #include "remesh/blocks.h"
 #include "remesh/relax.h"
 
-/* What was done, added up, and how. */
+/* Counts of the changes, and their options. */
 typedef struct mr_resampled {
 	size_t splits, collapses;
 	size_t strung; /* collapses of vertices that edges which are too long hold on to */
@@ -39,7 +39,7 @@ mr_status
 mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser, mr_resampled *done);
 
 /* Merges the ends of edges that are shorter than 4/5 of their target, or squeezed.  Edges that are too long
- * already may hold on to what is merged, once for each vertex: it would be drawn along far else. */
+ * already may stay at a merged vertex, once each: else it would be drawn along far. */
 void mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 #endif

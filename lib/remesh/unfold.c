@@ -1,5 +1,5 @@
 /* Umbrella smoothing (Kobbelt, Campagna, Vorsatz, Seidel 1998) of the vertices at folds alone, one by one;
- * what is not to be moved is left, so that nothing has to be taken back. */
+ * vertices that must not move stay, so that nothing has to be taken back. */
 #include "remesh/unfold.h"
 
 enum { MOST = 10 };

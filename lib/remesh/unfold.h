@@ -8,9 +8,8 @@
 
 /*
  * Draws the vertices at edges that are near a fold (mesh/fold.h) towards the middle of their neighbours,
- * until none is left or it has been done 10 times.  Curves stay, and so does what
- * would become a needle.  Where a limb is thinner than an edge a mesh of such edges may fold: there the
- * surface gives way.
+ * until none is left or it has been done 10 times.  Curves stay, and so do moves that would make a needle.  A
+ * limb thinner than an edge may make the mesh fold: there the surface gives way.
  */
 void mr_unfold(mr_dyn *d);
 

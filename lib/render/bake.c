@@ -1,4 +1,4 @@
-/* Texels to places on the target, places to the source, and what is there to pixels. */
+/* Texels to places on the target, places to the source, and its values to pixels. */
 #include "render/bake.h"
 
 #include "base/parallel.h"
@@ -9,7 +9,7 @@ enum { SUBTEXEL = 256, BAND = 64, NEAR = 8, GRAIN = 512 };
 
 /* ---- which face a texel is on ---- */
 
-/* A face in the texture, y downwards, in whole 256ths of a texel: what is computed of them is exact. */
+/* A face in the texture, y downwards, in whole 256ths of a texel: arithmetic on them is exact. */
 typedef struct footprint {
 	double x[3], y[3];
 } footprint;
@@ -131,7 +131,7 @@ mr_texture_overlap(mr_ctx *ctx, size_t nf, const double *uv, size_t side,
 
 /* ---- tangents ---- */
 
-/* Where u increases on a face; *mirrored: v increases to its right, seen from outside. */
+/* The direction of increasing u on a face; *mirrored: v increases to its right, seen from outside. */
 static mr_v3
 tangent_of(const mr_mesh *m, const double *uv, size_t f, bool *mirrored)
 {
@@ -228,7 +228,7 @@ typedef struct seen {
 	mr_v3 color, normal; /* 0 to 255; not unit, zero where not known */
 } seen;
 
-/* Texels at work, in a row, and what they see. */
+/* Texels at work, in a row, and their samples. */
 typedef struct baking {
 	const mr_bake_source *s;
 	const mr_bake_target *t;

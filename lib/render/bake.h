@@ -7,14 +7,14 @@
 #include "render/raster.h"
 #include "subdivide/atlas.h"
 
-/* What is baked; nothing, where the target's own fine surface is. */
+/* The source of the bake; none: the target's own fine surface. */
 typedef struct mr_bake_source {
 	mr_subject look;            /* a surface, or points; normal: nv, of a surface, too, or NULL */
 	const mr_v3 *corner_normal; /* 3 nf, unit, zero where there is none; NULL: see look.normal */
 	bool colored;               /* look has colours or pictures */
 } mr_bake_source;
 
-/* What it is baked onto. */
+/* The target. */
 typedef struct mr_bake_target {
 	mr_mesh m;
 	const double *uv;             /* 6 nf: of the corners; v upwards */
@@ -31,10 +31,10 @@ typedef struct mr_baked {
 	size_t turned;          /* of them, those whose normal looks away from the target */
 } mr_baked;
 
-/* Each texel shows the source along the target's normal, if it faces the same way and is at most some three
- * times as far as the nearest place, else that; of points the mean of eight, weighted by distance (Franke,
- * Nielson 1980).  Normals are in tangent space (Mikkelsen 2008); of points without normals those of `fine`.
- * Texels off the faces continue them for `gutter`; the rest has the mean colour. */
+/* Each texel shows the source along the target's normal, if that faces the same way and is at most some three
+ * times as far as the nearest place, else the nearest place; for points the mean of eight, weighted by
+ * distance (Franke, Nielson 1980).  Normals are in tangent space (Mikkelsen 2008); points without normals
+ * take `fine`'s.  Texels off the faces continue them for `gutter`; the rest has the mean colour. */
 mr_status
 mr_bake_draw(mr_ctx *ctx, const mr_bake_source *s, const mr_bake_target *t, mr_baked *baked) MR_WARN_UNUSED;
 

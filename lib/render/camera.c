@@ -1,4 +1,4 @@
-/* Named directions, and a camera that is turned, aimed and fitted to what it is to see. */
+/* Named directions, and a camera that is turned, aimed and fitted to its subject. */
 #include "render/camera.h"
 
 bool

@@ -13,7 +13,7 @@ typedef struct mr_camera {
 	double x, y;             /* pixel of the centre, from the panel's upper left corner, y downwards */
 } mr_camera;
 
-/* Where the eye stands in the view called front, back, left, right, top, bottom, iso or quarter, of a model
+/* The eye's direction in the view named front, back, left, right, top, bottom, iso or quarter, of a model
  * that stands upright on the axis `up`.  False: there is no such view. */
 bool mr_camera_view(const char *name, mr_v3 up, mr_v3 *from);
 

@@ -262,7 +262,7 @@ typedef struct shadow {
 	bool any;
 } shadow;
 
-/* Of two faces of a chart that lie on each other the second leaves it. */
+/* If two faces of a chart overlap, the second leaves it. */
 static void
 part(void *arg, uint32_t a, uint32_t b)
 {

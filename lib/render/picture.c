@@ -173,7 +173,7 @@ draw_scale(strip *s, const mr_shot *shot)
 	write_right(s, text, INK);
 }
 
-/* The strip under a panel: its name, what it consists of, the legend of its colours. */
+/* The strip under a panel: its name, its size, the legend of its colours. */
 static void
 draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several, const mr_render_opts *o)
 {

@@ -10,7 +10,7 @@
 /* A surface without colours. */
 static const mr_rgb MR_PLAIN = { 212, 204, 193 };
 
-/* What is drawn: a surface, or, where the mesh has no faces, its points as small balls. */
+/* The subject: a surface, or, for a mesh without faces, its points as small balls. */
 typedef struct mr_subject {
 	mr_mesh mesh;
 	const mr_v3 *normal; /* nv, unit, of points, where known; else NULL */

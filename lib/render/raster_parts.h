@@ -7,7 +7,7 @@
 /* SAMPLES by SAMPLES samples are taken of a pixel; a sample's side has 256 steps. */
 enum { SAMPLES = 2, STEP_BITS = 8, STEP = 1 << STEP_BITS };
 
-/* A vertex in the picture, in steps; `near` is linear in the picture, and larger for what is nearer. */
+/* A vertex in the picture, in steps; `near` is linear in the picture, and larger for nearer vertices. */
 typedef struct mr_placed {
 	int32_t x, y;
 	float near;
@@ -28,7 +28,7 @@ typedef struct mr_raster_view {
 	uint32_t *list;
 } mr_raster_view;
 
-/* What edges say: twice the signed areas, in squared steps, of the triangles that (x, y) makes with them. */
+/* Edge functions: twice the signed areas, in squared steps, of the triangles that (x, y) makes with them. */
 static inline void
 edge_functions(const mr_placed p[3], int64_t x, int64_t y, int64_t e[3])
 {

@@ -1,4 +1,4 @@
-/* Colours of what is seen: three lights and a bright sky over a matte surface, in linear values. */
+/* Colours of visible points: three lights and a bright sky over a matte surface, in linear values. */
 #include "render/raster_parts.h"
 
 #include "base/parallel.h"
@@ -8,7 +8,7 @@ static const mr_rgb INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
 
 enum { LEVELS = 4096 };
 
-/* What a pixel has gathered from its samples. */
+/* The sums of a pixel's samples. */
 typedef struct gathered {
 	float r, g, b; /* light, summed over the samples that see something */
 	float share;   /* of the samples that do */
@@ -134,7 +134,7 @@ set_up_face(const shading *s, uint32_t face, facet *f)
 	f->fade = f->fade < 1 ? f->fade : 1;
 }
 
-/* What light of all directions makes of a normal, given along the camera's axes. */
+/* The light from all directions on a normal, given along the camera's axes. */
 static double
 light_on(mr_v3 n)
 {
@@ -252,7 +252,7 @@ shade_point_sample(const shading *s, size_t at, size_t x, size_t y, gathered *g)
 	gather(g, color, n, 0, mr_vec(0, 0, 0));
 }
 
-/* The pixel, over what is behind it. */
+/* The pixel, over its background. */
 static void
 put_pixel(const shading *s, const gathered *g, mr_rgb *pixel)
 {

@@ -49,7 +49,7 @@ mr_texture_level(const mr_texture *texture, double texels, double samples)
 	return level < texture->levels - 1 ? (int)(level + 0.5) : texture->levels - 1;
 }
 
-/* The pixel left of, or above, a share of n pixels, and how far behind its middle that is. */
+/* The pixel left of, or above, a share of n pixels, and how far past its middle that is. */
 static size_t
 split(double share, size_t n, double *rest)
 {

@@ -1,5 +1,4 @@
-/* What points, or a mesh, have beside their places, at the vertices of the surface that is displaced to them.
- */
+/* Columns of points, or of a mesh, at the vertices of the surface that is displaced to them. */
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "sample/parts.h"
@@ -23,8 +22,8 @@ typedef struct job {
 /* Squared distances below this share of the farthest that is looked at are as good as none. */
 static const double THERE = 1e-12;
 
-/* The nearest points of a vertex's own sheet, or of any where none is, and their weights: inverse squares, as
- * higher powers come no nearer to what is linear in place. */
+/* The nearest points of a vertex's own sheet, or of any sheet if that has none, and their weights: inverse
+ * squares, as higher powers come no nearer to linear functions. */
 static void
 weigh(const job *j, size_t i, uint32_t point[NEAREST], double weight[NEAREST])
 {

@@ -1,6 +1,5 @@
-/* How fair heights are to be, told by the noisy points alone, by generalised cross-validation (Golub, Heath,
- * Wahba 1979): the least sum of w r^2 over (n - trace)^2, the trace from a random vector (Hutchinson 1990).
- */
+/* The fairness of heights, from the noisy points alone, by generalised cross-validation (Golub, Heath, Wahba
+ * 1979): the least sum of w r^2 over (n - trace)^2, the trace from a random vector (Hutchinson 1990). */
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sort.h"
@@ -16,7 +15,7 @@ typedef struct means {
 	double *to;
 } means;
 
-/* Of the neighbours' heights, how far the own one is off: its square. */
+/* The squared deviation of a height from its neighbours'. */
 static void
 square_differences(void *arg, size_t begin, size_t end)
 {
@@ -76,7 +75,7 @@ mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double
 	mr_mark_release(ctx, mark);
 }
 
-/* The fit that is validated, of a part of the vertices; what it asks of others is as it was. */
+/* The fit that is validated, of a part of the vertices; all others stay. */
 typedef struct validation {
 	mr_heights *e;
 	const mr_wish *wish;
@@ -89,7 +88,7 @@ typedef struct validation {
 	size_t count;   /* of the list */
 	double *fair;   /* as it came: e->n */
 	double *trial;  /* heights: e->n */
-	double *probe;  /* a random vector, and what it becomes: e->n */
+	double *probe;  /* a random vector, and its image: e->n */
 	double *image;
 } validation;
 
@@ -118,7 +117,7 @@ is_taken(const validation *x, const mr_wish *w)
 	return x->taken[v[0]] && x->taken[v[1]] && x->taken[v[2]];
 }
 
-/* Of the point i, +1 or -1. */
+/* The sign of point i, +1 or -1. */
 static double
 sign_of(size_t i)
 {

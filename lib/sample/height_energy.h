@@ -34,8 +34,8 @@ void mr_heights_add_data(mr_ctx *ctx, mr_heights *e);
  */
 mr_status mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, double *h);
 
-/* The same for a few heights: those of the vertices listed; all others stay.  It costs no more than these and
- * two rings around them, but for 4 n bytes. */
+/* The same for a few heights: the listed vertices'; all others stay.  It costs no more than these and two
+ * rings around them, but for 4 n bytes. */
 mr_status mr_heights_minimise_some(
     mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, double tol, size_t most, double *h);
 

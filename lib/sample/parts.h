@@ -26,14 +26,14 @@ typedef struct mr_sight {
  */
 size_t mr_sights(const mr_v3 *point, const uint32_t *index, size_t k, mr_v3 v, mr_v3 n, mr_sight *s);
 
-/* What a triangle must keep to be taken. */
+/* The conditions of a valid triangle. */
 typedef struct mr_bounds {
 	double height; /* |t| of the hit, at most */
 	double edge2;  /* squared length of its longest edge, at most */
 	double cosine; /* between its normal and the line, at least */
 } mr_bounds;
 
-/* What the search for a valid triangle found. */
+/* The result of the search for a valid triangle. */
 typedef struct mr_valid {
 	size_t points; /* among how many the first triangle was that the line meets; 0: none */
 	bool taken;    /* a triangle within the bounds */
@@ -52,7 +52,7 @@ typedef struct mr_v3f {
 	float x, y, z;
 } mr_v3f;
 
-/* The points and what is known of them. */
+/* The points and their columns. */
 typedef struct mr_sample_cloud {
 	const mr_v3 *p;
 	const double *spacing;
@@ -89,7 +89,7 @@ mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_c
 void mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
     double *height, bool *hit, mr_sample_result *r);
 
-/* What the least squares weigh, beside the points, of which each counts 1. */
+/* Weights of the least squares, relative to a point's 1. */
 typedef struct mr_fit_weights {
 	double fair;  /* of the fairness of the heights */
 	double pull;  /* of a height found */
@@ -98,7 +98,7 @@ typedef struct mr_fit_weights {
 	size_t steps; /* of conjugate gradients in a pass, at most */
 } mr_fit_weights;
 
-/* What a point asks of the heights of its face's corners: sum c_i h_i = r. */
+/* A point's equation for the heights of its face's corners: sum c_i h_i = r. */
 typedef struct mr_wish {
 	uint32_t face;
 	float weight;
@@ -111,15 +111,15 @@ typedef struct mr_wish {
 void mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor);
 
 /*
- * Multiplies the fairness so that points that are left out come nearest to what the others tell.  e: with the
- * data of the n wishes; surface: whose heights they are; height: to begin with; steps: of conjugate
- * gradients, at most. *factor: by what.
+ * Multiplies the fairness so that the fit to the others best predicts the points left out.  e: with the data
+ * of the n wishes; surface: whose heights they are; height: to begin with; steps: of conjugate gradients, at
+ * most.  *factor: the multiplier.
  */
 mr_status mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n,
     const mr_mesh *surface, const double *height, size_t steps, double *factor);
 
-/* Fits the heights to the points; those that were hit are also pulled to what they are, by how many points
- * there are where `nearest` tells which is nearest to each vertex (NULL: alike).  e: of the domain. */
+/* Fits the heights to the points; hit vertices are also pulled to their heights, less where they are
+ * denser than the points around the `nearest` one (NULL: alike).  e: of the domain. */
 mr_status mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c,
     const mr_fit_weights *weights, size_t passes, mr_heights *e, const bool *hit, const uint32_t *nearest,
     double *height, mr_sample_result *r);

@@ -408,7 +408,7 @@ find_near(fit *x, uint32_t *list)
 	return count;
 }
 
-/* A pass for what is around bad faces alone. */
+/* A pass around bad faces alone. */
 static mr_status
 mend_pass(mr_ctx *ctx, fit *x)
 {

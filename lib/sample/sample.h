@@ -11,10 +11,10 @@
 enum { MR_SAMPLE_MOST = 128 }; /* neighbours, at most */
 
 /*
- * Heights over the domain to the points: d->m.nv, the caller's.  sampling: what is known of the points', or
- * NULL.  A vertex that finds no valid triangle is filled smoothly from its neighbours and counted; heights
- * that fold the surface are drawn to the domain, if `refine` is not 0.  MR_EMESH where the points cannot make
- * a surface (fewer than four, all equal, collinear, coplanar with a closed control mesh).  Figures: see
+ * Heights over the domain to the points: d->m.nv, the caller's.  sampling: the points', or NULL if unknown.
+ * A vertex that finds no valid triangle is filled smoothly from its neighbours and counted; heights that fold
+ * the surface are drawn to the domain, if `refine` is not 0.  MR_EMESH if the points cannot make a surface
+ * (fewer than four, all equal, collinear, coplanar with a closed control mesh).  Figures: see
  * man/mr-sample.1.
  */
 mr_status mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n,

@@ -196,7 +196,7 @@ report_tries(const search *s, size_t nv, mr_sample_result *r)
 	r->missed = nv - met;
 }
 
-/* Of the n vertices of the list, among k points. */
+/* Handles the n vertices of the list, among k points. */
 static mr_status
 search_list(mr_ctx *ctx, const uint32_t *list, size_t n, search *s)
 {

@@ -14,7 +14,8 @@ whole(double x, size_t least)
 	return x > (double)least ? (size_t)(x + 0.5) : least;
 }
 
-/* What is made, piece by piece: each has vertices of its own, and equal ones are joined in the end. */
+/* The mesh in the making, piece by piece: each has vertices of its own, and equal ones are joined in the
+ * end. */
 typedef struct build {
 	mr_ctx *ctx;
 	mr_v3 *p;
@@ -117,7 +118,7 @@ tube_place(const void *arg, size_t i, size_t j)
 	return t->at((double)(i % t->nu) / (double)t->nu, (double)(j % t->nv) / (double)t->nv);
 }
 
-/* Of about n points whose cells are squares where the lengths of the two circles stand in `ratio`. */
+/* Numbers of rings and columns for about n points with square cells; `ratio`: of the two circles' lengths. */
 static void
 add_tube(build *b, size_t n, double ratio, size_t least, mr_v3 (*at)(double u, double v))
 {
@@ -191,7 +192,7 @@ join_rings(build *b, size_t outer, size_t m, size_t inner, size_t n, bool flip)
 	while (i < m || j < n) {
 		/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) the outer ring has vertices */
 		size_t a = outer + i % m, c = inner + (n ? j % n : 0), d;
-		bool step = j == n || (i < m && (i + 1) * n <= (j + 1) * m); /* the one behind goes on */
+		bool step = j == n || (i < m && (i + 1) * n <= (j + 1) * m); /* the later one goes on */
 
 		d = step ? outer + ++i % m : inner + ++j % n;
 		add_face(b, a, flip ? c : d, flip ? d : c);
@@ -340,7 +341,7 @@ join_equal(mr_ctx *ctx, build *b)
 	size_t count;
 
 	mr_weld(ctx, b->p, b->nv, 0, map, &count);
-	for (size_t i = 0; i < b->nv; i++) /* a new number is never behind the old one */
+	for (size_t i = 0; i < b->nv; i++) /* a new number is never greater than the old one */
 		b->p[map[i]] = b->p[i];
 	for (size_t f = 0; f < b->nf; f++)
 		for (int k = 0; k < 3; k++)

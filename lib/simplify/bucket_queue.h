@@ -1,8 +1,8 @@
 /*
  * bucket_queue.h -- a queue of numbered items by a positive float, served lowest first to within 1/128.
  *
- * Contract: an item is in the queue once at most.  Of the items in one bucket the last that was put is served
- * first, so the order depends on nothing but the calls.  Every operation takes constant time.
+ * Contract: an item is in the queue once at most.  In one bucket the item put last is served first, so the
+ * order depends on nothing but the calls.  Every operation takes constant time.
  */
 #ifndef MR_SIMPLIFY_BUCKET_QUEUE_H
 #define MR_SIMPLIFY_BUCKET_QUEUE_H

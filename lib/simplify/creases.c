@@ -42,7 +42,7 @@ static const double ONE_SIDED = 0.95;
  */
 static const double JUMP = 0.85, EVEN = 2;
 
-/* Of the edges that seem to be sharp more than a share are: MOST of all, LIKELY of those in PATCHES of VOTERS
+/* More than a share of the seemingly sharp edges are sharp: MOST of all, LIKELY in PATCHES of VOTERS
  * vertices, where curves are short. */
 static const double MOST = 0.5, LIKELY = 0.2;
 enum { VOTERS = 512, PATCHES = 8 };
@@ -246,7 +246,7 @@ edge_of(const finder *f, uint32_t h)
 	return f->topo.twin[h] < h ? f->topo.twin[h] : h;
 }
 
-/* Where along the edge of h the planes of both ends are equally far. */
+/* The place along the edge of h at equal distance from the planes of both ends. */
 static mr_v3
 place_on(const finder *f, uint32_t h)
 {
@@ -325,8 +325,8 @@ drop(const finder *f, uint32_t h)
 		f->middle[twin] = MR_NONE;
 }
 
-/* Drops the curves, from corner to corner, across which the normals turn evenly, and those that are too short
- * to tell. */
+/* Drops the curves, from corner to corner, across which the normals turn evenly, and curves that are too
+ * short to judge. */
 static bool
 drop_curves(mr_ctx *ctx, const finder *f, crossing *c, size_t n)
 {
@@ -452,7 +452,7 @@ cut_face(const finder *f, uint32_t t, cutting *c)
 		}
 		return;
 	}
-	/* Where two are cut, h and the one before it. */
+	/* Handles two cut edges, h and the one before it. */
 	for (uint32_t k = 0; k < 3 && cuts > 0; k++, h = mr_he_next(h))
 		if (f->middle[h] != MR_NONE && (cuts == 1 || f->middle[mr_he_prev(h)] != MR_NONE))
 			break;
@@ -631,7 +631,7 @@ look(mr_ctx *ctx, finder *f, const uint32_t *at, size_t n)
 	return MR_OK;
 }
 
-/* Some of n vertices, and those of them around these, patch by patch; patch: VOTERS.  Returns how many. */
+/* Some of n vertices with their neighbours, patch by patch; patch: VOTERS.  Returns how many. */
 static size_t
 take_patches(mr_ctx *ctx, const finder *f, const uint32_t *at, size_t n, uint32_t *patch)
 {

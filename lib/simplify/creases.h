@@ -1,7 +1,7 @@
 /*
  * creases.h -- sharp edges of the surface that points were taken from, in a mesh that is near it.
  *
- * For points without noise: what is noisy shows no planes.
+ * For points without noise: noise hides the planes.
  */
 #ifndef MR_SIMPLIFY_CREASES_H
 #define MR_SIMPLIFY_CREASES_H

@@ -2,21 +2,20 @@
 #include "simplify/edge_collapse.h"
 
 /*
- * Of the trace of A: directions in which the quadric changes less than that are left nearly free, and the
- * vertex stays near the middle of the edge in them.
+ * Relative to the trace of A: directions in which the quadric changes less than that are left nearly free,
+ * and the vertex stays near the middle of the edge in them.
  */
 static const double FLAT = 1e-5;
 /*
  * The cost of length: the merge of an edge of length l over area A costs LENGTH A l^2 beyond its error.  It
- * orders what is flat and evens the triangles; on scanned models the mean distance
- * stays what it is without, within 1 %.
+ * orders flat regions and evens the triangles, with no effect on the mean distance beyond 1 %.
  */
 static const double LENGTH = 2e-3;
 enum { STEPS = 3 }; /* of minimization: enough for a corner of a cube to come out to rounding */
 /*
- * What a control mesh pays for valences far from 6: a share of the cost for each square of what the merged
- * vertex has beyond 7 faces, and of what the vertices across lack of 5 edges.  At 0.05 valences are 4 to 9,
- * but for one in a hundred, and the mean distance grows by 1 to 3 %; at 0.15 by 2 to 6.
+ * What a control mesh pays for valences far from 6: a share of the cost for the squares of the merged
+ * vertex's faces beyond 7 and of the missing edges, below 5, of the vertices across.  At 0.05 nearly all
+ * valences are 4 to 9, and the mean distance grows by 1 to 3 %.
  */
 static const double VALENCE = 0.05;
 /* Shapes, squared, that count as one: side by side on a rod slivers are as thin as each other, but for that.
@@ -34,7 +33,7 @@ ring_push(mr_merge_ring *r, uint32_t e)
 	return true;
 }
 
-/* Appends the faces from half-edge e counter-clockwise, up to but without that of `stop` or a boundary. */
+/* Appends the faces from half-edge e counter-clockwise, up to but without `stop`'s face or a boundary. */
 static bool
 ring_add(const mr_dyn *d, uint32_t e, uint32_t stop, mr_merge_ring *r)
 {
@@ -44,7 +43,7 @@ ring_add(const mr_dyn *d, uint32_t e, uint32_t stop, mr_merge_ring *r)
 	return true;
 }
 
-/* Appends the faces at the start of h, but for those of h and of its twin. */
+/* Appends the faces at the start of h, except the faces of h and of its twin. */
 static bool
 ring_add_start(const mr_dyn *d, uint32_t h, mr_merge_ring *r)
 {
@@ -68,8 +67,8 @@ ring_of(const mr_dyn *d, uint32_t h, mr_merge_ring *r)
 }
 
 /*
- * Draws x to the plane g x = r on which the volume below the faces stays what it was (Lindstrom, Turk 1998),
- * in the metric of the quadric.  Where that is farther than the edge is long, as on a blade, x stays.
+ * Draws x to the plane g x = r on which the volume below the faces is unchanged (Lindstrom, Turk 1998), in
+ * the metric of the quadric.  If that is farther than the edge is long, as on a blade, x stays.
  */
 static mr_v3
 keep_volume(const mr_dyn *d, const mr_merge_ring *r, uint32_t h, const mr_quadric_factor *factor, mr_v3 x)
@@ -174,7 +173,7 @@ mr_merge_begin(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m)
 	m->cost = cost_of(&m->sum, mr_quadric_at(&m->sum.q, m->sum.x));
 }
 
-/* The squared distances of what is merged to the planes, by area. */
+/* The squared distances of the merged vertices to the planes, by area. */
 static double
 distance2(const mr_dyn *d, const mr_site *site, const mr_merge *m)
 {

@@ -18,7 +18,7 @@ typedef struct mr_merge_ring {
 	unsigned n;
 } mr_merge_ring;
 
-/* What a vertex carries with it. */
+/* The data of a vertex. */
 typedef struct mr_site {
 	mr_quadric q;    /* about its position */
 	double room;     /* error that it may have */
@@ -43,8 +43,7 @@ typedef struct mr_merge {
 	double error2; /* mean squared distance of p to the planes of the faces merged into it, by area */
 } mr_merge;
 
-/* Begins to tell what it is to merge the ends of h; the cost is about a lower bound.  site: of every vertex.
- */
+/* Begins the cost of merging the ends of h: about a lower bound.  site: of every vertex. */
 void mr_merge_begin(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m);
 
 /* The rest of it.  False where the merged vertex would have more than MR_RING_MAX faces. */

@@ -1,4 +1,4 @@
-/* Where the vertices of a simplified mesh lie on what it was. */
+/* Places of a simplified mesh's vertices on the original. */
 #include "base/parallel.h"
 #include "simplify/simplify.h"
 #include "space/surface_walk.h"
@@ -15,8 +15,8 @@ typedef struct place_job {
 } place_job;
 
 /*
- * A walk stays on its sheet but may end at a local minimum.  Where a place is nearer than that it counts, if
- * its face looks to the same side as the vertex; else it is that of another sheet.
+ * A walk stays on its sheet but may end at a local minimum.  A nearer place counts if its face looks to the
+ * same side as the vertex; else it lies on another sheet.
  */
 static mr_closest
 place(const place_job *j, size_t i)

@@ -6,8 +6,8 @@
 /* Degrees between faces. */
 static const double SHARP = 40;
 
-/* Of the mean angle of the edges of a piece, that of the others of their faces, at most: up to 0.07 of
- * machine parts; of the bunny, igea, a camel and the armadillo 0.09 and more. */
+/* At most this share of a piece's mean edge angle is the mean angle of the other edges of its faces: machine
+ * parts have up to 0.07, scanned bodies 0.09 and more. */
 static const double AROUND = 0.08;
 
 /* Cosine: a sharp edge that turns by more has a corner. */
@@ -52,7 +52,7 @@ measure(const mr_dyn *d, uint32_t h, piece *p)
 		}
 }
 
-/* The shorter, the sharper it must be beside what is around: small bores and pins are. */
+/* The shorter, the sharper it must be relative to its surroundings: small bores and pins are. */
 static bool
 counts(const piece *p, double length)
 {

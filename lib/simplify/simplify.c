@@ -204,7 +204,7 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 {
 	double limit = room_at(s, h);
 	uint32_t now;
-	mr_merge m; /* what it would be */
+	mr_merge m; /* its cost in that case */
 
 	mr_merge_begin(&s->d, s->site, h, &m);
 	now = mr_bucket_of((float)m.cost);
@@ -225,7 +225,7 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 }
 
 /* Lets errors be larger, where there are more faces than the most, or needles be thinner; each once, for the
- * sake of a number of faces; but not where a finer mesh was kept.  Of a mesh with sharp edges larger errors
+ * sake of a number of faces; but not where a finer mesh was kept.  On a mesh with sharp edges larger errors
  * would close pockets and bend flats. */
 static bool
 relax(simplifier *s)
@@ -269,7 +269,7 @@ add_rim(simplifier *s, uint32_t h, mr_v3 normal, double area_weight)
 	mr_quadric_add_plane(&s->site[b].q, side, weight);
 }
 
-/* Of face f, by its corners. */
+/* Handles face f, by its corners. */
 static double
 weight_of(const simplifier *s, uint32_t f)
 {
@@ -279,8 +279,8 @@ weight_of(const simplifier *s, uint32_t f)
 	return w ? (w[at[v[0]]] + w[at[v[1]]] + w[at[v[2]]]) / 3 : 1;
 }
 
-/* Adds how the values of face f go on in its plane to the fields of its corners but those on curves, where
- * those of the other side are others. */
+/* Adds how the values of face f go on in its plane to the fields of its corners except corners on curves,
+ * where the other side has its own. */
 static void
 add_field(simplifier *s, uint32_t f, double area)
 {
@@ -324,8 +324,7 @@ add_quadrics(simplifier *s)
 	}
 }
 
-/* Takes the numbers that half-edges had in the input for those of their faces; curves are those that it
- * marks. */
+/* Keeps the input's numbers of half-edges; the curves are the half-edges that `sharp` marks. */
 static void
 take_source(simplifier *s, const uint8_t *sharp)
 {
@@ -376,8 +375,8 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 	return MR_OK;
 }
 
-/* A mesh with fewer faces than are asked for keeps all; of others what is shorter than three edges of the
- * result is doubted. */
+/* A mesh with fewer faces than are asked for keeps all; otherwise curves shorter than three edges of the
+ * result are doubted. */
 static void
 find_sharp_edges(simplifier *s, const mr_mesh *m)
 {
@@ -417,7 +416,8 @@ begin(simplifier *s, const mr_mesh *m)
 	return MR_OK;
 }
 
-/* Says of each vertex of the input which of the result it was merged into.  number: those of what lives. */
+/* Maps each vertex of the input to the vertex of the result that it was merged into.  number: of live
+ * vertices. */
 static void
 number_onto(simplifier *s, size_t nv, const uint32_t *number, uint32_t *onto)
 {
@@ -473,8 +473,7 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
  */
 enum { BLOCK = 1 << 14 };
 
-/* How many times as many faces as in the end the blocks are left with: what they keep between them is finer.
- */
+/* How many times as many faces as in the end the blocks are left with: the borders between them are finer. */
 static const double SPARE = 8;
 /* Buckets by which costs double: the blocks' merges keep step with each other. */
 enum { DOUBLED = 128 };

@@ -17,11 +17,10 @@ typedef struct mr_simplify_cloud {
 	mr_sampling sampling;
 } mr_simplify_cloud;
 
-/* What of a mesh stays.  All NULL: nothing. */
+/* The parts of a mesh that stay.  All NULL: nothing. */
 typedef struct mr_simplify_ties {
-	uint8_t *
-	    *sharp; /* its edges that *sharp marks (3 nf; *sharp NULL: those that are sharp by the angles of
-	               its faces); and marks those of the result, in the arena, NULL where there are none */
+	uint8_t **sharp; /* its edges that *sharp marks (3 nf; *sharp NULL: sharp by the angles of its faces);
+	                  * set to the marks of the result, in the arena, NULL if it has none */
 	const bool *fixed; /* of each vertex: it stays */
 	uint32_t **face;   /* out: of each face of the result one of before on its side of the curves */
 	const double
@@ -31,9 +30,9 @@ typedef struct mr_simplify_ties {
 
 /*
  * Simplifies an oriented manifold m, boundary allowed; its topology stays (link condition) and no triangle is
- * flipped.  Where nothing more can be merged the result has more faces than asked for: the result
- * tells.  onto: m->nv, the caller's: the vertex of the result that each was merged into (MR_NONE for an
- * isolated one).  out: in the arena.  ties, result: or NULL.
+ * flipped.  If nothing more can be merged, more faces than asked for remain: see the result.  onto: m->nv,
+ * the caller's: the vertex of the result that each was merged into (MR_NONE for an isolated one).  out: in
+ * the arena.  ties, result: or NULL.
  */
 mr_status mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts,
     const mr_simplify_ties *ties, mr_mesh *out, uint32_t *onto, mr_simplify_result *result);
@@ -44,7 +43,7 @@ size_t mr_simplify_faces_for(size_t n);
 /* The most that it may have for the sake of its distance from them. */
 size_t mr_simplify_most_faces_for(size_t n);
 
-/* What it has where these are too few. */
+/* Fallback values if these are too few. */
 size_t mr_simplify_fine_faces_for(size_t n);
 
 /*
@@ -55,8 +54,8 @@ size_t mr_simplify_fine_faces_for(size_t n);
 mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, double *weight);
 
 /*
- * Where the vertices of the result lie on m: the nearest point, where its face looks to the same side as the
- * vertex, else where a walk from the nearest of the vertices merged into it ends.  map: out->nv rows, in the
+ * The places of the result's vertices on m: the nearest point if its face looks to the same side as the
+ * vertex, else the end of a walk from the nearest of the vertices merged into it.  map: out->nv rows, in the
  * arena.
  */
 mr_status

@@ -113,8 +113,8 @@ as_upper(const mr_sparse *a)
 		.packed = 1 };
 }
 
-/* OpenBLAS 0.3 tries for ever where its buffer of 128 MB cannot be had.  Where there is less than that the
- * factor is too large; where there seems to be more, its failure is one. */
+/* OpenBLAS 0.3 tries for ever if it cannot get its buffer of 128 MB.  With less memory than that the factor
+ * counts as too large; with more, its failure is an error. */
 static mr_status
 check_room(mr_ctx *ctx)
 {

@@ -99,8 +99,8 @@ gather(dissection *d, const piece *b, uint8_t side, int begin)
 	return begin;
 }
 
-/* Cuts a piece into what is below, from begin to ends[0], above, to ends[1], and the separator; false where
- * there is no good cut. */
+/* Cuts a piece into a lower part, from begin to ends[0], an upper one, to ends[1], and the separator; false
+ * without a good cut. */
 static bool
 cut_piece(dissection *d, const piece *b, int ends[2])
 {
@@ -121,7 +121,7 @@ cut_piece(dissection *d, const piece *b, int ends[2])
 	return 2 * (b->end - ends[1]) <= b->end - b->begin; /* else the separator is most of it */
 }
 
-/* Numbers a piece, what a cut leaves of it after what it parts. */
+/* Numbers a piece: the separator after the parts. */
 static void
 dissect(dissection *d, int begin, int end)
 {

@@ -123,7 +123,7 @@ typedef struct counting {
 } counting;
 
 /*
- * Where column j is a leaf of row i's subtree: 1 of the first, with *common = i, 2 of a later one, with the
+ * Whether column j is a leaf of row i's subtree: 1 of the first, with *common = i, 2 of a later one, with the
  * least common ancestor of it and the one before.
  */
 static int

@@ -17,7 +17,7 @@ typedef struct mr_pattern {
 	int *start, *row, *entry;
 } mr_pattern;
 
-/* Numbers behind each panel, which are read and not used, eight rows at a time. */
+/* Padding after each panel, which is read and not used, eight rows at a time. */
 enum { MR_PANEL_SLACK = 8 };
 
 typedef struct mr_elimination {
@@ -27,7 +27,7 @@ typedef struct mr_elimination {
 
 /*
  * a: the lower triangle, by rows.  order: n, which row is eliminated when; postordered on return, and part of
- * *e.  e: in the arena of ctx; pattern: in that of work.
+ * *e.  e: in the arena of ctx; pattern: in work's arena.
  */
 void mr_eliminate(
     mr_ctx *ctx, mr_ctx *work, const mr_sparse *a, int *order, mr_elimination *e, mr_pattern *pattern);

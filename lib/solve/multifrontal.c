@@ -31,7 +31,7 @@ typedef struct multifrontal {
 	const mr_elimination *e;
 	double *value;
 	int *child, *sibling; /* of each panel the first child, and the next of its parent's; -1: none */
-	double **update;      /* of each panel what it takes from the rows below its own */
+	double **update;      /* each panel's update of the rows below its own */
 	uint8_t *top;         /* of each panel: it is in no subtree */
 	int *root;            /* of the subtrees */
 	size_t roots;
@@ -65,8 +65,8 @@ column_at(size_t m, bool packed, size_t j)
 	return (ptrdiff_t)(j * m) - (packed ? (ptrdiff_t)(j * (j + 1) / 2) : 0);
 }
 
-/* Rows from i and columns from j of c less a b', in a tile of which `rows` and `columns` are there: what is
- * read of a beyond them is not used. */
+/* Rows from i and columns from j of c less a b', in a tile of which `rows` and `columns` exist: a is read
+ * beyond them, without use. */
 static MR_INLINED void
 tile(const matrix *c, size_t i, size_t j, const double *a, const double *b, size_t ld, size_t depth,
     size_t rows, size_t columns)

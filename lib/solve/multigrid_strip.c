@@ -1,9 +1,9 @@
 /*
- * Multigrid for L (W L)^(k-1).  V-cycles on L, k times, invert it but for its boundary conditions: they have
- * all Laplacians vanish at the constraints, where the system has k rings of vertices given.  What that misses
- * varies along the boundary and decays away from it, the faster the shorter its waves.  So a strip of rings
- * along the boundary is solved exactly before and after: multiplicative Schwarz (Smith, Bjorstad, Gropp 1996:
- * Domain decomposition, chapter 1), which is symmetric, and positive definite because both its parts are.
+ * Multigrid for L (W L)^(k-1).  V-cycles on L, k times, invert it except its boundary conditions: they have
+ * all Laplacians vanish at the constraints, but the system has k rings of given vertices.  The error varies
+ * along the boundary and decays away from it, the faster the shorter its waves.  So a strip of rings along
+ * the boundary is solved exactly before and after: multiplicative Schwarz (Smith, Bjorstad, Gropp 1996:
+ * Domain decomposition, chapter 1).  It is symmetric, and positive definite because both its parts are.
  */
 #include "solve/preconditioner.h"
 #include "solve/sparse.h"

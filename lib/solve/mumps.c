@@ -20,7 +20,7 @@
 enum { START = -1, END = -2, ANALYSE = 1, FACTORIZE = 2, SOLVE = 3 }; /* its jobs */
 enum { SYMMETRIC_POSITIVE_DEFINITE = 1, WORLD = -987654 };
 
-/* INFOG(1): errors; but for those of the matrix they are of space. */
+/* INFOG(1): errors; all but the matrix's are of memory. */
 enum {
 	SPACE_OF_INTEGERS = -8,
 	SPACE_OF_REALS = -9,
@@ -29,9 +29,8 @@ enum {
 	NO_ROOM = 1 /* ours: more than `memory` */
 };
 
-/* What rank 0 asks the others to do with a solver, one of SOLVERS at a time; 0 is none.  memory: see
- * room_here.
- */
+/* Requests of rank 0 to the others about a solver, one of SOLVERS at a time; 0 is none.  memory: see
+ * room_here. */
 typedef enum task { OPEN, APPLY, CLOSE, DISMISS } task;
 typedef struct order {
 	int task, solver;

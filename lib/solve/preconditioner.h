@@ -52,8 +52,8 @@ typedef struct mr_cg {
 	const void *a;
 	const mr_preconditioner *b;
 	const double *goal; /* of |r|, column by column; or NULL: */
-	double tol;  /* how much sqrt(r' B r) may be of what it was at first: about the error's energy */
-	size_t most; /* iterations */
+	double tol;         /* bound of sqrt(r' B r) relative to its start: about the error's energy */
+	size_t most;        /* iterations */
 } mr_cg;
 
 /* For a matrix that is stored, a mr_sparse. */

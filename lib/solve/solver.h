@@ -33,7 +33,7 @@ mr_solver_iterates(mr_solver_kind kind)
 	return kind >= MR_CG;
 }
 
-/* A coarser level of a multigrid hierarchy: n unknowns, and what they give to those of the finer level. */
+/* A coarser level of a multigrid hierarchy: n unknowns, and their interpolation to the finer level. */
 typedef struct mr_coarser {
 	mr_sparse prolong; /* a row for each unknown of the finer level, columns below n */
 	size_t n;
@@ -49,7 +49,7 @@ typedef struct mr_hierarchy {
 	size_t strip_count;    /* may be 0 */
 } mr_hierarchy;
 
-/* What is to be solved.  Iterative solvers borrow it: it must outlive them; direct ones do not. */
+/* The system.  Iterative solvers borrow it: it must outlive them; direct ones do not. */
 typedef struct mr_system {
 	const mr_sparse *a;
 	const int *part;               /* dissection (mr_dissect) for Cholesky, or NULL */
@@ -71,7 +71,7 @@ typedef struct mr_solver_opts {
 
 typedef struct mr_solver mr_solver;
 
-/* What the set-up took and found, and of iterative solvers what the last solution took. */
+/* Figures of the set-up and, for iterative solvers, of the last solution. */
 typedef struct mr_solver_report {
 	double seconds_analyse, seconds_factor;
 	double rcond;      /* a cheap estimate of the reciprocal condition number; 0: none */

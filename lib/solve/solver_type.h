@@ -1,8 +1,8 @@
 /*
- * solver_type.h -- what a solver provides to solver.c.
+ * solver_type.h -- a solver's interface to solver.c.
  *
  * Contract: `data` points to `size` zeroed bytes of the solver's own.  `setup` fills them and the report, as
- * `solve` does; `drop` releases what they hold beside the arena, also where setup has failed half-way; NULL:
+ * `solve` does; `drop` releases their memory outside the arena, also after setup has failed half-way; NULL:
  * nothing. Private to this room.
  */
 #ifndef MR_SOLVE_SOLVER_TYPE_H

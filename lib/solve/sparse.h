@@ -34,7 +34,7 @@ mr_sparse_sort(int *column, int n)
  * for 2^31 entries or more. */
 mr_status mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a);
 
-/* Where row i has its entry of a column; -1: nowhere. */
+/* The index of row i's entry of a column; -1: nowhere. */
 static inline int
 mr_sparse_find(const mr_sparse *a, int i, int column)
 {
@@ -78,8 +78,8 @@ void mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width
 /*
  * Nested dissection: cuts the vertices 0 to n - 1, at positions p and with the neighbours of l's rows, into
  * parts and the separators between them, `reach` edges wide, until a part is small.  part[i] is a number
- * below n; a separator's is higher than those of all that it separates, and of two parts no vertices are
- * within `reach` edges through either.  Neighbours from n on are not looked at.  part: n, the caller's.
+ * below n; a separator's is higher than its parts', and no vertices of two parts are within `reach` edges
+ * through either.  Neighbours from n on are not looked at.  part: n, the caller's.
  */
 void mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part);
 

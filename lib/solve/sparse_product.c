@@ -80,7 +80,7 @@ typedef struct product_row {
 typedef struct product_job {
 	const mr_sparse *a, *b;
 	const double *w; /* NULL: ones */
-	int columns;     /* of c; those of b beyond are left out */
+	int columns;     /* of c; further columns of b are left out */
 	bool lower;      /* so are those above the diagonal */
 	size_t blocks;
 	product_row *row;

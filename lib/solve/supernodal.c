@@ -15,7 +15,7 @@ struct mr_supernodal {
 	int *to;     /* where what a row is given goes in x: beyond n, where the row is outside of the panel's
 	                subtree */
 	int *root;   /* of the subtrees, which are worked on in parallel */
-	int *beyond; /* of each where what is outside begins in x */
+	int *beyond; /* start of each panel's outside rows in x */
 	size_t roots, most;
 	uint8_t *top; /* of each panel: it is in no subtree */
 	wide *x;      /* n rows, then what the subtrees give to those outside of them */
@@ -117,8 +117,8 @@ divide(wide *z, double l)
 }
 
 /*
- * Columns are too short for the machine to see what comes next, so it is told.  Beyond the factor, where this
- * may point, nothing is fetched.
+ * Columns are too short for the hardware's prefetch, so it is explicit.  Beyond the factor, to which this may
+ * point, nothing is fetched.
  */
 static MR_INLINED void
 fetch(const double *l, size_t offset)
@@ -165,7 +165,7 @@ gather(const double *l, size_t nr, size_t begin, size_t end, const wide *z, wide
 	y[3] = y3;
 }
 
-/* L z = z in the panel's columns; what they take from the other rows is subtracted there. */
+/* L z = z in the panel's columns; their update of the other rows is subtracted there. */
 static MR_INLINED void
 forward(const double *l, size_t nr, size_t nc, wide *z)
 {

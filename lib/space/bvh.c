@@ -81,7 +81,7 @@ keep_nearer(mr_closest *best, mr_closest c)
 		*best = c;
 }
 
-/* Of a face so thin that the regions below are not to be trusted: the best of the edges and the inside. */
+/* For a face too thin for the regions below: the best of the edges and the inside. */
 static mr_closest
 closest_of_sliver(mr_v3 q, mr_v3 a, mr_v3 b, mr_v3 c)
 {
@@ -329,7 +329,7 @@ box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double
 	}
 }
 
-/* both: hits before the origin count as those behind it. */
+/* both: hits before the origin count like hits after it. */
 static MR_INLINED void
 hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, bool both, mr_ray_hit *best)
 {

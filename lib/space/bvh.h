@@ -22,7 +22,7 @@ typedef struct mr_closest {
 	double dist2; /* squared distance; infinite where nothing was found */
 } mr_closest;
 
-/* Where a ray origin + t dir meets a face; t in units of |dir|. */
+/* The hit of a ray origin + t dir on a face; t in units of |dir|. */
 typedef struct mr_ray_hit {
 	mr_place at;
 	double t;
@@ -47,10 +47,10 @@ mr_closest mr_bvh_closest_within(const mr_bvh *bvh, mr_v3 q, double dist2);
  */
 bool mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit);
 
-/* The hit with the least |t| <= tmax, before the origin or behind it. */
+/* The hit with the least |t| <= tmax, on either side of the origin. */
 bool mr_bvh_ray_both(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmax, mr_ray_hit *hit);
 
-/* How far the nearest hit is, before the origin or behind it, that is no nearer than tmin; tmax where none is
+/* The distance of the nearest hit on either side of the origin that is no nearer than tmin; tmax if none is
  * nearer than that. */
 double mr_bvh_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax);
 

@@ -7,11 +7,10 @@
  * 2^-22 of the mesh, more than the rounding of a query within 2^29 mesh sizes can
  * amount to; farther off, the rounding is below 2^-50 of the distance, and bounds
  * are lowered by 2^-40.  A nearest point is clamped to the box of its triangle, so
- * no bound can exceed the distance that is computed: the answer is that of a loop
- * over all faces.
- * Where most vertices take less than 2^-12 of the mesh, as with one astray at 1e12, c is among them, and a
- * side of a box at x is grown by 2^-22 of |x|, or of what they take: what rounds a query at u is 2^-52 |u|,
- * less than that where u is near x, and below 2^-40 of the distance elsewhere.
+ * no bound can exceed the distance that is computed: the answer equals a loop's over all faces.  If most
+ * vertices fill less than 2^-12 of the mesh, as with one astray at 1e12, c is among them, and a side of a box
+ * at x is grown by 2^-22 of |x|, or of their extent: the rounding of a query at u is 2^-52 |u|, less than
+ * that where u is near x, and below 2^-40 of the distance elsewhere.
  */
 #ifndef MR_SPACE_BVH_TREE_H
 #define MR_SPACE_BVH_TREE_H

@@ -151,8 +151,8 @@ place_faces(void *arg, size_t begin, size_t end)
 		    mr_project_walk(&j->cut, &j->topo, j->face[f], middle_of(j->s->after, f)).at.face;
 }
 
-/* A face of before on the side of face f: of a corner off the seams, of a seam, or that of a neighbour;
- * MR_NONE where it has none yet. */
+/* A face of before on the side of face f: of a corner off the seams, of a seam, or a neighbour's; MR_NONE if
+ * it has none yet. */
 static uint32_t
 side_of(const corner_job *j, const mr_topology *after, uint32_t f)
 {
@@ -232,7 +232,7 @@ is_at_rim(const corner_job *j, mr_place at)
 }
 
 /* The place of corner c: its own, which is on its side; but a walk may end before the nearest place, and then
- * that of another corner of the side, or of the vertex where no seam is. */
+ * another corner's of the side, or the vertex's off seams. */
 static mr_place
 choose(const corner_job *j, uint32_t c, uint32_t best)
 {
@@ -282,7 +282,7 @@ set_up(mr_ctx *ctx, corner_job *j)
 	return MR_OK;
 }
 
-/* Where the corners of `after` are. */
+/* The places of the corners of `after`. */
 static mr_rows_from
 find_corners(mr_ctx *ctx, corner_job *j)
 {

@@ -1,11 +1,11 @@
-/* Components.  Those of points are found over a binary tree of boxes: what is out of a point's reach, or of
- * its component already, is not looked into. */
+/* Components.  Components of points are found over a binary tree of boxes: boxes out of a point's reach, or
+ * of its component already, are skipped. */
 #include "space/connected.h"
 
 #include "base/disjoint_sets.h"
 #include "mesh/zorder.h"
 
-/* Of a point, in its spacings. */
+/* The reach of a point, in its spacings. */
 static const double REACH = 4;
 
 enum { LEAF = 8 };
@@ -159,7 +159,7 @@ is_one(tree *t, range r)
 	return n->one = one;
 }
 
-/* Joins point i with those of the node that it is connected with. */
+/* Joins point i with the points of the node that it is connected with. */
 static void
 join_point(tree *t, size_t i, range r)
 {
@@ -214,7 +214,7 @@ reach_of_spacing(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, double *reach)
 {
 	mr_sampling s;
 
-	/* outliers would join what they lie between */
+	/* outliers would join their neighbours */
 	MR_TRY(f ? mr_sampling_of(ctx, f, m, &s) : mr_sampling_find(ctx, m->p, m->nv, NULL, &s));
 	for (size_t i = 0; i < m->nv; i++)
 		reach[i] = s.outlier[i] ? 0 : REACH * s.spacing[i];

@@ -52,7 +52,7 @@ mr_boundary_label(mr_ctx *ctx, const mr_mesh *m, bool **boundary, bool *any)
 	*boundary = at;
 }
 
-/* ---- what is near of other labels than one's own ---- */
+/* ---- near faces of other labels than one's own ---- */
 
 /* A tree over a mesh whose faces have labels. */
 typedef struct labels {
@@ -64,7 +64,7 @@ typedef struct labels {
 /* Nodes; by a third of these too no contact of 23 models changes. */
 enum { NODES = 300 };
 
-/* What all that has the label a or b has. */
+/* The label of a and b; MR_NONE if they differ. */
 static uint32_t
 common(uint32_t a, uint32_t b)
 {
@@ -96,7 +96,7 @@ label_node(labels *l, uint32_t node)
 	return l->node[node] = label;
 }
 
-/* label: one a face, MR_NONE for what is alone; kept, as is bvh.  In the arena. */
+/* label: one a face, MR_NONE for none; kept, as is bvh.  In the arena. */
 static labels
 label_tree(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *label)
 {
@@ -107,7 +107,7 @@ label_tree(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *label)
 	return l;
 }
 
-/* A search of bvh.c that leaves out what has its own label or what is found nearer already. */
+/* A search of bvh.c that skips its own label and labels already found nearer. */
 typedef struct others {
 	const labels *l;
 	mr_v3 q;
@@ -117,7 +117,7 @@ typedef struct others {
 	mr_closest *found; /* the nearest first */
 } others;
 
-/* Where the label is among those found; n where it is not. */
+/* The index of the label among the found ones; n if it is missing. */
 static size_t
 place_of(const others *s, uint32_t label)
 {
@@ -181,10 +181,9 @@ look_at_leaf(others *s, bvh_entry leaf)
 }
 
 /*
- * Of the labels other than `own` that are at most sqrt(dist2) away the `most` nearest ones, and the nearest
- * point of each: out, the nearest first, of several the lowest face.  Returns how many.  Where boxes of many
- * faces lie over each other something near may be missed: NODES nodes are looked at, those of near boxes
- * first.  No label is MR_NONE.
+ * Finds the `most` nearest labels other than `own` within sqrt(dist2), and the nearest point of each: out,
+ * the nearest first, of several the lowest face.  Returns how many.  Overlapping boxes of many faces may hide
+ * a near one: NODES nodes are looked at, near boxes first.  No label is MR_NONE.
  */
 static size_t
 closest_others(const labels *l, mr_v3 q, uint32_t own, double dist2, size_t most, mr_closest *out)
@@ -237,10 +236,9 @@ some_area(const mr_mesh *m)
 }
 
 /*
- * What is as near as this is at one place, of n at the boundary: sides of a seam are apart by what their
- * coordinates were rounded to, which of single precision is 1e-7 of the diagonal.  Where an edge is a hundred
- * times as long as that no more, it is the edges that bound it, and not the diagonal, which of a model with a
- * stray part says nothing.
+ * Vertices this near are at one place, of n at the boundary: the sides of a seam differ by the rounding of
+ * their coordinates, 1e-7 of the diagonal in single precision.  At most a hundredth of an edge: a stray part
+ * makes the diagonal meaningless.
  */
 static double
 same_place(const mr_mesh *m, const mr_v3 *p, size_t n)
@@ -267,7 +265,7 @@ list_boundary(mr_ctx *ctx, const mr_mesh *m, const bool *boundary, mr_v3 *p, siz
 	return list;
 }
 
-/* Those of one component that are welded become rings. */
+/* Welded vertices of one component become rings. */
 static void
 find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 {

@@ -19,8 +19,8 @@ void mr_boundary_label(mr_ctx *ctx, const mr_mesh *m, bool **boundary, bool *any
 /* Other parts that a vertex may touch: at a place of a grid of boxes there are seven. */
 enum { MR_CONTACTS = 8 };
 
-/* Of vertex v those from start[v] to start[v + 1]: the other sides of a slit, and the nearest points of other
- * components, the nearest first. */
+/* The contacts of vertex v, from start[v] to start[v + 1]: the other sides of a slit, and the nearest points
+ * of other components, the nearest first. */
 typedef struct mr_contacts {
 	size_t *start;   /* one more than there are vertices */
 	size_t vertices; /* that have any */

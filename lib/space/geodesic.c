@@ -1,9 +1,8 @@
 /*
- * Marching over triangles (Kimmel, Sethian 1998) with the update of Novotni and
- * Klein 2002: the distances of two corners fix a source in the plane of their
- * triangle, and the third corner is as far as the straight way from there, if that
- * way passes between the two.  Where an obtuse triangle breaks the order, a vertex
- * that becomes nearer is looked at again.
+ * Marching over triangles (Kimmel, Sethian 1998) with the update of Novotni and Klein 2002: the distances of
+ * two corners fix a source in the plane of their triangle, and the third corner is as far as the straight way
+ * from there, if that way passes between the two.  If an obtuse triangle breaks the order, a vertex that
+ * becomes nearer is looked at again.
  */
 #include "space/geodesic.h"
 
@@ -28,7 +27,7 @@ before(const void *a, const void *b)
 	return x->distance < y->distance || (x->distance == y->distance && x->vertex < y->vertex);
 }
 
-/* The distance of corner c behind the edge a-b, whose ends are da and db away. */
+/* The distance of corner c across the edge a-b, whose ends are da and db away. */
 static double
 behind_edge(mr_v3 a, mr_v3 b, mr_v3 c, double da, double db)
 {
@@ -60,7 +59,7 @@ static void
 relax(mr_ctx *ctx, march *j, uint32_t v, double d, double way)
 {
 	front *f = &j->front;
-	const double step = 1e-4; /* less does not pay: it would run on through all that lies behind */
+	const double step = 1e-4; /* less does not pay: it would run on through all that follows */
 
 	/* corners that are not settled yet can put the source too near: space is the shortest way of all */
 	d = fmax(d, mr_dist(j->m->p[v], j->source));

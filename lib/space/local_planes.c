@@ -63,7 +63,7 @@ mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3])
 	}
 }
 
-/* Of the diagonal of the box: what is flatter may be rounding of single precision. */
+/* Relative to the diagonal of the box: a flatter one may be rounding of single precision. */
 static const double FLAT = 1e-6;
 
 /* Directions of at most this cosine, 45 degrees, lie apart. */
@@ -178,7 +178,7 @@ fit_at(const work *w, size_t i)
 		q[n] = w->p[index[n]];
 	o->normal[at] = w->around ? mr_plane_around(q, n, &o->variation[at])
 	                          : mr_plane_fit(q, n, &o->variation[at]);
-	/* in a layer as thick as noise makes it, the farthest tell best how many there are to an area */
+	/* in a layer as thick as noise makes it, the farthest give the best density */
 	o->area[at] = w->around || n < 2 ? mr_own_area(dist2 + 1, n > AROUND ? AROUND : n - 1)
 	                                 : MR_PI * dist2[n - 1] / (double)(n - 1);
 	for (size_t j = 0; j < o->links; j++)

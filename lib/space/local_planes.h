@@ -1,5 +1,5 @@
 /*
- * local_planes.h -- what the neighbourhood of each point of a cloud tells: its plane, the area it stands for.
+ * local_planes.h -- figures of the neighbourhood of each point of a cloud: its plane, the area it stands for.
  */
 #ifndef MR_SPACE_LOCAL_PLANES_H
 #define MR_SPACE_LOCAL_PLANES_H
@@ -34,7 +34,7 @@ mr_v3 mr_plane_around(const mr_v3 *q, size_t k, double *variation);
 
 /*
  * The area of the surface that a point has to itself, by the squared distances of its k nearest others, of
- * which eight are best: among points strewn over a plane the disc out to the j-th is that of j, so PI sum
+ * which eight are best: among points strewn over a plane the disc out to the j-th is the area of j, so PI sum
  * d_j^2 / sum j. 0 where k is 0.
  */
 double mr_own_area(const double *dist2, size_t k);

@@ -1,4 +1,4 @@
-/* Those of a sampling that are also far from the surface. */
+/* Outliers of a sampling that are also far from the surface. */
 #include "space/outlier.h"
 
 #include "base/sort.h"

@@ -9,8 +9,8 @@
 #include "space/sampling.h"
 
 /*
- * Of the outliers of a sampling (s->n > 0), which are far from the surface too; off: the distance of each of
- * the points from it.  Those are that are farther than 2.5 standard deviations, estimated from the median of
+ * Finds the outliers of a sampling (s->n > 0) that are far from the surface too; off: the distance of each of
+ * the points from it.  They are farther than 2.5 standard deviations, estimated from the median of
  * `off`, than `least`, and than their spacing: sparse points that the surface is as near to as others are
  * none.
  *

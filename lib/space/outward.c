@@ -1,5 +1,4 @@
-/* Rays link the sides of parts with each other and with infinity; what is settled settles what it is linked
- * to. */
+/* Rays link the sides of parts with each other and with infinity; a decided side decides the linked ones. */
 #include "space/outward.h"
 
 #include "space/bvh.h"
@@ -7,8 +6,8 @@
 
 enum { RAYS = 64 }; /* of each side of a part */
 
-/* What a ray tells: of which part it comes, to which it leads (MR_NONE: out of the scene), and whether it
- * joins like sides. */
+/* A ray's result: the part it comes from, the part it hits (MR_NONE: out of the scene), and whether it joins
+ * like sides. */
 typedef struct link {
 	uint32_t from, to;
 	bool alike;

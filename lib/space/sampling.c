@@ -32,10 +32,10 @@ enum { ROUNDS = 3 };
  * neighbours and so many times as far from the middle as nearly all are. */
 static const double APART = 6, BEYOND = 2, NEARLY = 0.95;
 
-/* Of fewer places there are no outliers. */
+/* Fewer places have no outliers. */
 enum { FEW = 64 };
 
-/* Of spacings. */
+/* Ratios of spacings. */
 static const double LOW = 0.1, HIGH = 0.9;
 
 /* The places, along the Z curve, where they do not depend on the order of the points. */
@@ -104,7 +104,7 @@ isolation(const cloud *c, size_t i)
 	return c->spacing[i] / mr_kth(beside, c->around, c->around / 2);
 }
 
-/* Of the point and its neighbours. */
+/* Figures of the point and its neighbours. */
 static double
 unevenness(const cloud *c, size_t i)
 {
@@ -123,7 +123,7 @@ is_apart(const cloud *c, size_t i)
 	return c->spacing[i] > APART * c->usual && mr_dist(c->p[i], c->middle) > BEYOND * c->reach;
 }
 
-/* What a point is by itself: an outlier, or, where points are sparse, more likely one or not, or none. */
+/* The class of a point by itself: an outlier, or, among sparse points, more likely one or not, or none. */
 enum { DENSE, FLAT, DOUBTFUL, OUTLIER };
 
 static void
@@ -198,7 +198,7 @@ reach_sparse(const cloud *c, bool *reached, uint32_t *list)
 	return n - dense;
 }
 
-/* Regions of those of the list and of the sparse points that are reached beside them. */
+/* Regions of the listed points and of the sparse points reachable from them. */
 static void
 join_reached(const cloud *c, const bool *reached, const uint32_t *list, size_t n, uint32_t *region)
 {
@@ -211,7 +211,7 @@ join_reached(const cloud *c, const bool *reached, const uint32_t *list, size_t n
 }
 
 /* Keeps the sparse ends of surfaces, however thin: regions of sparse points that dense ones lead to, unless
- * they are as uneven as what is strewn in space. */
+ * they are as uneven as points strewn in space. */
 static void
 keep_sparse_ends(mr_ctx *ctx, cloud *c)
 {
@@ -332,8 +332,8 @@ quadric_residuals(const mr_v3 *q, size_t k, double *off)
 	for (size_t i = 0; i < k; i++) {
 		mr_v3 d = mr_mul(1 / radius, mr_sub(q[i], mean));
 		double x = mr_dot(d, axis[2]), y = mr_dot(d, axis[1]);
-		/* coefficients of 1 x y xx rxy yy, r the root of 2: the norm of the last three is that of
-		 * their matrix */
+		/* coefficients of 1 x y xx rxy yy, r the root of 2: the norm of the last three is their
+		 * matrix's */
 		memcpy(row + i * TERMS, (double[TERMS]){ 1, x, y, x * x, sqrt(2) * x * y, y * y },
 		    TERMS * sizeof *row);
 		t[i] = mr_dot(d, axis[0]);
@@ -351,7 +351,7 @@ quadric_residuals(const mr_v3 *q, size_t k, double *off)
 
 /* ---- noise ---- */
 
-/* Of some places, at equal strides. */
+/* Uses some places, at equal strides. */
 typedef struct look {
 	const cloud *c;
 	size_t k;
@@ -572,7 +572,7 @@ check_columns(mr_ctx *ctx, const char *layer, const mr_sampling *s, const double
 	return MR_OK;
 }
 
-/* Squares of lengths below 1e-162 are 0: what is measured in such spacings has no measure. */
+/* Squares of lengths below 1e-162 are 0: such spacings are no unit. */
 static mr_status
 check_usual(mr_ctx *ctx, const char *layer, const mr_sampling *s)
 {

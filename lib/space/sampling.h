@@ -5,7 +5,7 @@
  * Found once, by the first tool of a pipe that needs it, and kept in the layer; the later ones read it there.
  *
  * Contract: the same for every order of the points and number of threads and, but for rounding, wherever the
- * cloud lies, however it is turned and scaled; the noise of more than 10007 places is that of so many of
+ * cloud lies, however it is turned and scaled; the noise of more than 10007 places is measured at so many of
  * them.
  */
 #ifndef MR_SPACE_SAMPLING_H
@@ -31,22 +31,19 @@ typedef struct mr_sampling {
 } mr_sampling;
 
 /*
- * Spacings of noise from which on points are noisy: noise of 0.3 % of the diagonal on 50,000 points of 59
- * models is 0.48 to 0.84 of their spacing, of 1 % on 30,000 0.80 and more, of 0.5 % on 10,000 0.40 and more:
- * there triangles make a crust, three times as far from the truth.  Of clean ones nine tenths are below 0.04,
- * thinned out to a sixtieth 0.08; of the vertices of models 0.45, whose features are no larger than that: of
- * 54 two are beyond the limit for which triangles are nearer.
+ * Spacings of noise from which on points are noisy: noise of 0.3 % of the diagonal on 50,000 points is 0.48
+ * to 0.84 of their spacing.  There triangles make a crust, three times as far from the truth.  Clean clouds
+ * are below 0.08, vertices of models below 0.45.
  */
 static const double MR_NOISY = 0.35;
 
-/* n finite points; the columns are in the arena.  known: what is known of them already, which it becomes, or
- * NULL. */
+/* n finite points; the columns are in the arena.  known: figures known already, which it becomes, or NULL. */
 mr_status mr_sampling_find(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *known, mr_sampling *s);
 
 /*
- * That of a layer's points: by its columns, checked, or where these are not there,
- * found and, in a layer without triangles, put there.  MR_ERANGE where a column is no sampling's, and where
- * the median spacing of two points or more is 0.
+ * The sampling of a layer's points: by its columns, checked; if these are missing, found and, in a layer
+ * without triangles, put there.  MR_ERANGE if a column is no sampling's, and if the median spacing of two
+ * points or more is 0.
  */
 mr_status mr_sampling_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s);
 
@@ -59,7 +56,7 @@ mr_sampling_stored(mr_ctx *ctx, mr_frame *f, const char *layer, size_t n, mr_sam
 void
 mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorted, mr_sampling *of_sorted);
 
-/* Those of the n points p that count, each place once, without outliers, along the Z curve, and their
+/* The points among the n points p that count, each place once, without outliers, along the Z curve, and their
  * indices (NULL: not wanted); in the arena. */
 void mr_sampling_places(
     mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 **place, uint32_t **index, size_t *count);

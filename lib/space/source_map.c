@@ -1,4 +1,4 @@
-/* Places on a mesh: those of its own vertices, and what becomes of them over another surface on the way. */
+/* Places on a mesh: its own vertices', and their composition over another surface. */
 #include "space/source_map.h"
 
 #include "base/parallel.h"
@@ -78,10 +78,10 @@ compose_body(void *arg, size_t begin, size_t end)
 }
 
 /*
- * Composes maps: `over` places n vertices on the base, `base_map` those of the base on the mesh;
- * *map places the n vertices on the mesh.  Where base and mesh have the same triangles and base_map is
- * the identity, so is the composition; else the point between the corners' points, drawn
- * to the mesh by a walk from the nearest corner.  map: in the arena.
+ * Composes maps: `over` places n vertices on the base, `base_map` the base's vertices on the mesh; *map
+ * places the n vertices on the mesh.  If base and mesh have the same triangles and base_map is the identity,
+ * so is the composition; else the point between the corners' points, drawn to the mesh by a walk from the
+ * nearest corner.  map: in the arena.
  */
 static mr_status
 compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *base_map,

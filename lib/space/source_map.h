@@ -21,8 +21,8 @@ mr_status mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, 
 mr_status mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_places *map);
 
 /*
- * Where n vertices that `over` places on m, a surface of the frame, lie on its mesh: the same where m is the
- * mesh, composed where it is the base and has a map.  *mapped is false where neither is so.
+ * The places on the frame's mesh of n vertices that `over` places on its surface m: the same if m is the
+ * mesh, composed if it is the base and has a map.  *mapped is false otherwise.
  */
 mr_status mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_places *over, size_t n,
     mr_places *map, bool *mapped);

@@ -140,7 +140,7 @@ by_place(const void *a, const void *b)
 	return x->vertex < y->vertex ? -1 : x->vertex > y->vertex;
 }
 
-/* What stands on edges, in order along them; of several at one place, and of several sides of a face, the
+/* Vertices on edges, in order along them; of several at one place, and of several sides of a face, the
  * first. */
 static void
 find_stitches(mr_ctx *ctx, const mr_mesh *m, search *s)
@@ -236,7 +236,7 @@ mr_layer_stitch(mr_ctx *ctx, mr_frame *f, const char *layer, size_t *stitched)
 {
 	enum {
 		ROUNDS = 32
-	}; /* in each, one side of a face is split: three, and what is new, are done by the fifth */
+	}; /* in each, one side of a face is split: three, and the new ones, are done by the fifth */
 	search s = { .count = 1 };
 	pieces q;
 	mr_mesh m;

@@ -8,9 +8,9 @@
 #include "mesh/layers.h"
 
 /*
- * How near vertices of the boundary are that ought to be one: by the largest gap, of tenfold at least,
+ * The distance below which vertices of the boundary ought to be one: by the largest gap, at least tenfold,
  * between the distances to their nearest others and the lengths of boundary edges, below the median of these;
- * 0 where there is none.  may: nv, those of the boundary, in the arena.
+ * 0 without such a gap.  may: nv, true on the boundary, in the arena.
  */
 mr_status mr_weld_distance(mr_ctx *ctx, const mr_mesh *m, double *distance, const bool **may) MR_WARN_UNUSED;
 

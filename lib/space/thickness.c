@@ -44,7 +44,7 @@ want_some(const caster *c, bool *taken)
 	}
 }
 
-/* Then all around those where it is few edges: there one ray may tell too little, or too much. */
+/* Then all faces around those with few edges' thickness: there one ray may measure too little or too much. */
 static void
 want_thin(const caster *c, const mr_incidence *inc)
 {

@@ -9,9 +9,9 @@
 /*
  * The distance to the surface on the other side, inwards or outwards, whichever is less, for each vertex:
  * measured along the normal (the shape diameter of Shapira, Shamir, Cohen-Or 2008) by one ray for some of the
- * faces, and for all where that is few edges, and made a distance that grows along the surface no faster than
- * one walks, as a local feature size does.  Of any mesh.  What is thicker than `most`, or has no other side,
- * gets that.  thickness: nv, the caller's.
+ * faces, and for all where that is few edges long, and made a distance that grows along the surface no faster
+ * than one walks, as a local feature size does.  For any mesh.  Vertices thicker than `most`, or without
+ * another side, get `most`.  thickness: nv, the caller's.
  */
 void mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness);
 

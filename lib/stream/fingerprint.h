@@ -1,5 +1,5 @@
-/* fingerprint.h -- 64 bits by which a writer knows a column again: those of other bytes differ but for a
- * chance of 2^-64.  Not for use against an adversary.  Private to this room. */
+/* fingerprint.h -- 64 bits by which a writer knows a column again: other bytes have others but for a chance
+ * of 2^-64.  Not for use against an adversary.  Private to this room. */
 #ifndef MR_STREAM_FINGERPRINT_H
 #define MR_STREAM_FINGERPRINT_H
 

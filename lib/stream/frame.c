@@ -301,7 +301,7 @@ mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
 	for (size_t i = 0; i < from->count; i++) {
 		const mr_column *c = &from->columns[i];
 		bool joined = !*c->layer && (!strcmp(c->name, "history") || !strcmp(c->name, "findings") ||
-						!strcmp(c->name, "latest")); /* behind one another */
+						!strcmp(c->name, "latest")); /* sorted, one after another */
 		if (mr_column_is_file(c) && mr_frame_find(frame, "", c->name))
 			continue;
 		MR_TRY(joined ? merge_lines(ctx, frame, from, c->name) : mr_frame_pass(ctx, frame, c));

@@ -54,11 +54,11 @@ mr_frame_has_files(const mr_frame *f)
 /* Bytes of one value of a type: 8, 4 or 1. */
 size_t mr_type_size(char type);
 
-/* Copies the list of columns, so that what is put into the copy stays out of `frame`; the rest is shared.
+/* Copies the list of columns, so that columns put into the copy stay out of `frame`; the rest is shared.
  * Tools work on such a copy, which becomes the frame at their end: one that fails has changed nothing. */
 void mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 
-/* What a tool ends with: its copy becomes the frame, and what it found the result, unless that is NULL. */
+/* Ends a tool: its copy becomes the frame, and its figures the result, unless that is NULL. */
 void mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes);
 
 /* NOLINTBEGIN(bugprone-macro-parentheses): it declares the copy */
@@ -102,8 +102,8 @@ bool mr_frame_begins_layer(const mr_frame *frame, size_t i);
 /* Appends one line to the frame's history; control characters and bytes that are not UTF-8 become '?'. */
 mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);
 
-/* Says at the end of what was written that this process fails, and has said why, to those of its process
- * group. What cannot be written is not. */
+/* Ends the output with a note, for processes of its group, that this process fails and has said why.  Errors
+ * of writing are ignored. */
 void mr_writer_fail(mr_ctx *ctx, mr_writer *w);
 
 /* Whether reading failed since the stream ends so, and the process that said why is of the same group as

@@ -42,7 +42,7 @@ mr_heap_room(mr_ctx *ctx, void *array, size_t size, size_t count, size_t *room)
 	return MR_OK;
 }
 
-/* Maps what is left of a regular file, where that is aligned; else it is read like a pipe. */
+/* Maps the rest of a regular file if that is aligned; else it is read like a pipe. */
 static void
 map_rest(mr_input *in)
 {
@@ -97,7 +97,7 @@ mr_input_forget(const unsigned char *record, uint64_t n)
 	const uintptr_t page = 65536, begin = ((uintptr_t)record + page - 1) / page * page;
 	const uintptr_t end = ((uintptr_t)record + (uintptr_t)n) / page * page;
 
-	if (begin < end) /* what is read all the same comes from the file again */
+	if (begin < end) /* a later read comes from the file again */
 		madvise((void *)begin, end - begin, MADV_DONTNEED);
 #else
 	(void)record;

@@ -1,4 +1,4 @@
-/* Records to frames: a delta is merged with what it keeps of the frame before (man/mr-stream.5). */
+/* Records to frames: a delta is merged with the columns it keeps of the frame before (man/mr-stream.5). */
 #include "stream/stored.h"
 
 #include <unistd.h>
@@ -193,7 +193,7 @@ outside(mr_ctx *ctx, mr_reader *r, const piece *p)
 	    (unsigned long long)p->offset);
 }
 
-/* What stands between frames, up to the next FRAME.  MR_END: all streams have ended. */
+/* The records between frames, up to the next FRAME.  MR_END: all streams have ended. */
 static mr_status
 next_frame(mr_ctx *ctx, mr_reader *r)
 {
@@ -230,7 +230,7 @@ position_of(const mr_reader *r, const char *layer, const char *name)
 	return i;
 }
 
-/* What a frame sends it has at its end, whatever it drops; what it keeps may still be dropped. */
+/* A column that a frame sends stays, whatever it drops; a kept one may still be dropped. */
 static mr_status
 check_count(mr_ctx *ctx, const mr_reader *r, size_t columns)
 {
@@ -297,7 +297,7 @@ drop(mr_ctx *ctx, mr_reader *r, const piece *p)
 	return MR_OK;
 }
 
-/* The records of a frame behind FRAME, with ENDFRAME. */
+/* The records of a frame after FRAME, with ENDFRAME. */
 static mr_status
 read_columns(mr_ctx *ctx, mr_reader *r)
 {
@@ -322,7 +322,7 @@ read_columns(mr_ctx *ctx, mr_reader *r)
 	return status;
 }
 
-/* The frame that shows what is stored, with room for some more columns. */
+/* The frame that shows the stored columns, with room for some more columns. */
 static mr_status
 show(mr_ctx *ctx, mr_reader *r)
 {

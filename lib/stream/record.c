@@ -5,7 +5,7 @@
 
 #include <libdeflate.h>
 
-/* Where the fields of a header stand. */
+/* Offsets of the fields of a header. */
 enum {
 	LAYER = 0,
 	NAME = 16,
@@ -113,7 +113,7 @@ field(char *to, const unsigned char *from, size_t n)
 	return printable(to);
 }
 
-/* What a structural record may not be otherwise. */
+/* The rules of structural records. */
 static mr_status
 check_structure(mr_ctx *ctx, const mr_record *r, uint64_t offset)
 {
@@ -132,7 +132,7 @@ check_structure(mr_ctx *ctx, const mr_record *r, uint64_t offset)
 	return MR_OK;
 }
 
-/* What the sizes in a column's header must satisfy. */
+/* The rules of the sizes in a column's header. */
 static mr_status
 check_sizes(mr_ctx *ctx, const mr_record *r, uint64_t offset)
 {

@@ -39,7 +39,7 @@ mr_record_parse(mr_ctx *ctx, const unsigned char header[MR_HEADER], uint64_t off
 /* Writes the header, checksum included, of a record with the payload. */
 void mr_record_encode(const mr_record *record, const void *payload, unsigned char header[MR_HEADER]);
 
-/* MR_EFORMAT unless the checksum in the header is that of header and payload. */
+/* MR_EFORMAT unless the checksum in the header matches header and payload. */
 mr_status mr_record_verify(
     mr_ctx *ctx, const unsigned char header[MR_HEADER], const void *payload, size_t stored, uint64_t offset);
 

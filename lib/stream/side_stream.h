@@ -1,5 +1,5 @@
-/* side_stream.h -- a stream read beside another: for each frame of the first, that of the same number, or its
- * only one. Contract: every sentence names the path. */
+/* side_stream.h -- a stream read beside another: for each frame of the first, its frame of the same number,
+ * or its only one.  Contract: every sentence names the path. */
 #ifndef MR_STREAM_SIDE_STREAM_H
 #define MR_STREAM_SIDE_STREAM_H
 

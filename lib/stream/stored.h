@@ -42,15 +42,15 @@ mr_status mr_input_open(mr_ctx *ctx, int fd, mr_input *in);
 /* Says that a record in the map is not needed any more: a long stream does not pile up in memory. */
 void mr_input_forget(const unsigned char *record, uint64_t n);
 
-/* Leaves the descriptor behind what was read, mapped or not. */
+/* Leaves the descriptor at the end of the read bytes, mapped or not. */
 void mr_input_end(const mr_input *in);
 void mr_input_close(mr_input *in);
 
 /* The next header.  *got: its bytes; less than MR_HEADER only where the input ends. */
 mr_status mr_input_header(mr_ctx *ctx, mr_input *in, unsigned char header[MR_HEADER], size_t *got);
 
-/* The `n` bytes behind the header just taken.  *record: header and bytes, in the map or in *heap, which is
- * the caller's to free.  MR_END where the input ends before. */
+/* The `n` bytes after the header just taken.  *record: header and bytes, in the map or in *heap, which is the
+ * caller's to free.  MR_END if the input ends before. */
 mr_status mr_input_payload(mr_ctx *ctx, mr_input *in, const unsigned char header[MR_HEADER], uint64_t n,
     const unsigned char **record, void **heap) MR_WARN_UNUSED;
 

@@ -32,7 +32,7 @@ struct mr_writer {
 	unsigned char buffer[BUFFER];
 };
 
-/* What is to be done about one column of a frame. */
+/* The action for one column of a frame. */
 typedef struct plan {
 	sent now;
 	bool send;
@@ -170,8 +170,8 @@ same_name(const sent *a, const sent *b)
 	return !strcmp(a->name, b->name) && !strcmp(a->layer, b->layer);
 }
 
-/* What a delta sends.  The reader keeps its order of columns and appends others: as long as the frame's come
- * in that order they are kept or replaced, and what follows the first new one is sent behind a DROP. */
+/* Chooses the records of a delta.  The reader keeps its order of columns and appends others: as long as the
+ * frame's come in that order they are kept or replaced, and later columns are sent after a DROP. */
 static void
 compare(const mr_writer *w, plan *plans, size_t count, bool *survives)
 {
@@ -191,7 +191,7 @@ compare(const mr_writer *w, plan *plans, size_t count, bool *survives)
 	}
 }
 
-/* The bytes of one column that is sent, raw or packed as the writer was told. */
+/* The bytes of one column that is sent, raw or packed by the writer's options. */
 static mr_status
 encode(mr_ctx *ctx, const mr_writer *w, const mr_column *column, plan *p)
 {

@@ -126,7 +126,7 @@ come_near(place p, ptrdiff_t segments)
 		p.i -= beyond / 2;
 		p.j -= beyond / 2;
 	}
-	if (p.i <= 0 || p.j <= 0) { /* behind an acute corner, if not inside */
+	if (p.i <= 0 || p.j <= 0) { /* beyond an acute corner, if not inside */
 		p.i = p.i < 0 ? 0 : p.i > segments ? segments : p.i;
 		p.j = p.j < 0 ? 0 : p.j > segments ? segments : p.j;
 	}

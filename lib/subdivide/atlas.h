@@ -5,7 +5,7 @@
  * A triangle is a right one there, its first corner at the right angle, its second to the right or, as of
  * every other one, which is turned by 180 degrees, to the left.  Two of them fill a square.  So the vertices
  * that level n of a subdivision has on the triangle, at multiples of 2^-n in its barycentric coordinates, are
- * at the centres of texels: what is stored of them is not resampled.  Texels around a triangle, the gutter,
+ * at the centres of texels: their values are not resampled.  Texels around a triangle, the gutter,
  * are its own, too.
  */
 #ifndef MR_SUBDIVIDE_ATLAS_H
@@ -20,7 +20,7 @@ typedef struct mr_atlas {
 	size_t columns;       /* squares in a row */
 	size_t width, height; /* texels */
 	const uint32_t
-	    *vertex; /* of each triangle, row by row, those of the level; NULL: see mr_atlas_fill */
+	    *vertex; /* the level's vertices in each triangle, row by row; NULL: see mr_atlas_fill */
 } mr_atlas;
 
 /* A texel has the value of vertices: v[0] + v[1] - v[2], of which the last two are the same on a triangle. */

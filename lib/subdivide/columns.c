@@ -1,7 +1,7 @@
 /* Each kind of column has its own way to a finer mesh. */
 #include "subdivide/columns.h"
 
-/* Where the corners of a fine triangle are in the triangle that it is a part of. */
+/* The corners of a fine triangle in the triangle that it is a part of. */
 typedef struct corners {
 	uint32_t face;
 	mr_v3 at[3];
@@ -19,7 +19,7 @@ corners_of(const mr_refined *r, size_t f)
 	return c;
 }
 
-/* Each fine vertex between the corners of a triangle that it lies on; those of the mesh are themselves. */
+/* Each fine vertex between the corners of a triangle that it lies on; the mesh's own are themselves. */
 static void
 find_vertices(mr_ctx *ctx, const mr_refined *r, mr_rows_from *rows)
 {
@@ -43,7 +43,7 @@ find_vertices(mr_ctx *ctx, const mr_refined *r, mr_rows_from *rows)
 	*rows = (mr_rows_from){ r->fine.nv, 3, parent, weight };
 }
 
-/* The corners of fine triangles, between those of the one that each is a part of, some at a time. */
+/* The corners of fine triangles, between the corners of the one that each is a part of, some at a time. */
 static mr_status
 make_corners(mr_ctx *ctx, const mr_refined *r, const mr_carried *c)
 {

@@ -21,10 +21,10 @@ typedef struct mr_refined {
 
 /*
  * The columns that go along.  Numbers of vertices are subdivided as positions are, by Loop's rules or
- * linearly; normals, and what corners have, always linearly, normals keeping the mean of the lengths.  A new
- * vertex has the least region of the vertices that it lies between; of other whole numbers, those of the
- * nearest, and of doubles, one a vertex, that are all whole.  A triangle has what the one that it is a part
- * of has, but its polygon where Loop's rules made it. out: *count of them, in the arena.
+ * linearly; normals, and columns of corners, always linearly, normals keeping the mean of the lengths.  A new
+ * vertex has the least region of the vertices that it lies between; other whole numbers, and single doubles
+ * that are all whole, come from the nearest.  A triangle takes its parent's values, except its polygon under
+ * Loop's rules. out: *count of them, in the arena.
  */
 mr_status mr_refine_columns(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r,
     mr_carried **out, size_t *count) MR_WARN_UNUSED;

@@ -177,8 +177,7 @@ mr_displacement_check(mr_ctx *ctx, mr_frame *f)
 	return stored_heights(ctx, f, &control, &n, &height, &rows);
 }
 
-/* What vertices of the displaced surface have besides heights: those of a coarser level are the first ones.
- */
+/* Columns of the displaced surface besides heights: a coarser level's are the first ones. */
 static mr_status
 fit_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
 {

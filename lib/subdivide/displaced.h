@@ -4,7 +4,7 @@
  *
  * The domain of level n has the limit points v and unit limit normals n of the vertices on level n of Loop's
  * subdivision of the control mesh; the surface is v + h n.  A vertex has the same v and n on every level, so
- * the heights of level j are the first ones of those of any finer level.
+ * the heights of level j are the first ones of any finer level.
  */
 #ifndef MR_SUBDIVIDE_DISPLACED_H
 #define MR_SUBDIVIDE_DISPLACED_H

@@ -1,9 +1,9 @@
 /*
  * Each edge is divided into as few equal pieces as are short enough; each triangle then by itself, since its
- * edges say all that its neighbours see: into rows between its two edges of more pieces, from the corner
- * where they meet to the third edge, each row divided as an edge is, and strips of triangles between the
- * rows.  Halving edges instead would part a sliver of 2^k pieces in 3^k triangles, not in 2^k.  What the
- * diagonals of strips exceed the length by, at most some 40 %, is left to another pass.
+ * neighbours share only its edges: into rows between its two edges of more pieces, from the corner where they
+ * meet to the third edge, each row divided as an edge is, and strips of triangles between the rows.  Halving
+ * edges instead would part a sliver of 2^k pieces in 3^k triangles, not in 2^k.  The diagonals of strips
+ * exceed the length by at most some 40 %, which is left to another pass.
  */
 #include "subdivide/longest.h"
 
@@ -17,7 +17,7 @@ typedef struct pass {
 	mr_ctx *ctx;
 	double length;
 	mr_mesh m;            /* as it is before the pass */
-	const uint32_t *face; /* of each of its triangles, that of the first mesh */
+	const uint32_t *face; /* the first mesh's face of each of its triangles */
 	const mr_v3 *bary;    /* and of their corners there */
 	uint32_t *edge;       /* of each half-edge */
 	uint32_t *pieces;     /* of each edge */
@@ -293,7 +293,7 @@ last_row(pass *s, uint32_t f, const sides *d, int i, size_t *n)
 	*n = pieces + 1;
 }
 
-/* The row above, from the points that the left edge has below it to those of the right edge. */
+/* The row above, between the points below it on the left and on the right edge. */
 static void
 build_chain(pass *s, uint32_t f, const sides *d, uint32_t j, int above, size_t n, size_t *head, size_t *tail)
 {

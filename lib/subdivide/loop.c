@@ -125,7 +125,7 @@ number_edges(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* What becomes of half-edge h, whose twin and odd vertex are known. */
+/* Splits half-edge h, whose twin and odd vertex are known. */
 static void
 cut_edge(const refining *r, uint32_t h)
 {

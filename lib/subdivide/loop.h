@@ -50,13 +50,12 @@ mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark
  * SIZE_MAX where that is too many. */
 size_t mr_loop_count(size_t nv, size_t nf, size_t boundary, size_t n);
 
-/* Where the corners of triangle f on level n are in the triangle of level 0 that it is a part of, f >> 2 n.
- */
+/* The corners of triangle f on level n in its triangle of level 0, f >> 2 n. */
 void mr_loop_corners(size_t n, size_t f, mr_v3 at[3]);
 
 /*
- * Values on the fine level from those of the coarse one below it: `width` a vertex, next to each other.
- * in: coarse->nv rows; out: fine->nv rows, the caller's, elsewhere.
+ * Values on the fine level from the coarse level below it: `width` a vertex, next to each other.  in:
+ * coarse->nv rows; out: fine->nv rows, the caller's, elsewhere.
  */
 void mr_loop_subdivide(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, size_t width,
     const double *in, double *out);
@@ -70,15 +69,15 @@ void mr_loop_predict(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fi
 
 /*
  * Limit points and unit limit normals of the level's vertices at p, nv each, the caller's, either may be
- * NULL, neither p.  On a crease and at a corner a normal is the unit sum of those of the sectors between
- * sharp edges; it is zero where the limit tangents are parallel.
+ * NULL, neither p.  On a crease and at a corner a normal is the unit sum of the normals of the sectors
+ * between sharp edges; it is zero where the limit tangents are parallel.
  */
 void mr_loop_limit(const mr_ctx *ctx, const mr_loop *l, const mr_v3 *p, mr_v3 *limit, mr_v3 *normal);
 
 /*
  * The limit points of level n's vertices as combinations of the control vertices: level[n].nv rows, each of
- * sum 1, columns below level[0].nv.  s: in the arena, above what it took to make it.  MR_ERANGE where it has
- * 2^31 weights or more.
+ * sum 1, columns below level[0].nv.  s: in the arena, above its temporaries.  MR_ERANGE if it has 2^31
+ * weights or more.
  */
 mr_status mr_loop_limit_matrix(mr_ctx *ctx, const mr_loop *level, size_t n, mr_sparse *s);
 

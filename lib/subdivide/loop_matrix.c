@@ -50,7 +50,7 @@ row_of_edge(const mr_loop *l, uint32_t h, mr_sparse *a)
 	end_row(a);
 }
 
-/* By what the vertices of the next level are made of those of l; where that is NULL their limit points. */
+/* The matrix from the vertices of l to the next level; if that is NULL, to their limit points. */
 static void
 masks_of(mr_ctx *ctx, const mr_loop *l, const mr_loop *next, mr_sparse *a)
 {

@@ -142,7 +142,7 @@ mr_loop_beta(unsigned n)
 	return n == 6 ? 0.0625 : (0.625 - x * x) / n;
 }
 
-/* Where an even vertex goes. */
+/* The new position of an even vertex. */
 static inline mr_loop_mask
 mr_loop_even_mask(mr_loop_kind kind)
 {
@@ -159,7 +159,7 @@ mr_loop_even_mask(mr_loop_kind kind)
 	}
 }
 
-/* Where it comes to lie in the limit. */
+/* Its position in the limit. */
 static inline mr_loop_mask
 mr_loop_limit_mask(mr_loop_kind kind)
 {

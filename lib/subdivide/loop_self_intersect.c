@@ -123,7 +123,7 @@ join(const node *part, node *d)
 			d->angle = fmaxf(d->angle, part[k].angle + angle_between(d->axis, part[k].axis));
 }
 
-/* Those of the triangles of level 0 that have moved, and of their parts. */
+/* Nodes of the moved triangles of level 0, and of their parts. */
 static void
 make_nodes(void *arg, size_t begin, size_t end)
 {
@@ -239,7 +239,7 @@ count_above(const tree *x, size_t k)
 	return (x->level[0].nf + (((size_t)1 << 2 * k) - 1)) >> 2 * k;
 }
 
-/* Tests root f against those of the i-th box of 4^k, each pair once. */
+/* Tests root f against the roots of the i-th box of 4^k, each pair once. */
 static void
 test_above(const tree *x, size_t k, size_t i, uint32_t f)
 {

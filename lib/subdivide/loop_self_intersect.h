@@ -19,8 +19,8 @@ mr_loop_tree *mr_loop_tree_new(mr_ctx *ctx, const mr_loop *level, size_t n);
 /*
  * The triangles of level n, whose vertices are at p, that pass through others.  crosses: one a triangle, the
  * caller's.  moved: of the triangles of level 0, those that a vertex has moved in since `crosses` was found
- * by this tree, so that only these and what is near them is looked at: all at first; NULL: all, and what
- * `crosses` held does not count.
+ * by this tree, so that only these and their surroundings are looked at: all at first; NULL: all, and the old
+ * `crosses` does not count.
  */
 void mr_find_crossings(mr_ctx *ctx, mr_loop_tree *x, const mr_v3 *p, const bool *moved, bool *crosses);
 

@@ -36,7 +36,7 @@ put(mr_ctx *ctx, mr_frame *f, const mr_align_opts *o, const mr_align_result *r)
 	return mr_frame_put(ctx, f, "", "transform", shape, map, 1);
 }
 
-/* What stays, where no motion was found. */
+/* Without a motion the map is the identity. */
 static void
 stay(mr_align_result *r)
 {

@@ -1,4 +1,4 @@
-/* What the tools keep from frame to frame. */
+/* Data that tools keep from frame to frame. */
 #include "tool/cache.h"
 
 mr_cache *

@@ -44,7 +44,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_rest_cache *
 	return mr_layer_followed(ctx, f, "base");
 }
 
-/* What mr-sample found of the points' columns at the vertices, those of coarse levels first. */
+/* The points' columns at the vertices by mr-sample, coarse levels first. */
 static mr_status
 put_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
 {
@@ -63,7 +63,7 @@ put_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
 	return MR_OK;
 }
 
-/* Takes those of before away, so that nothing is said to be lost that is not. */
+/* Removes the old ones, so that they are not reported as lost. */
 static void
 drop_columns(mr_frame *f)
 {

@@ -88,7 +88,7 @@ begin(filled *w, size_t wide)
 	memset(w->none, 0, (w->s.rim + 1) * sizeof *w->none);
 }
 
-/* Means of vertices; of a loop without some they are those of the nearest, which are there already. */
+/* Means of vertices; a loop without them takes the nearest old vertices'. */
 static mr_status
 make_means(filled *w, const mr_carried *c)
 {
@@ -149,7 +149,7 @@ make_polygons(const filled *w, const mr_carried *c)
 		to[f] = ++most;
 }
 
-/* Of rows of vertices, else of faces, the nearest that was there. */
+/* The nearest old row, of vertices or of faces. */
 static void
 make_nearest(const filled *w, const mr_carried *c, bool of_vertices)
 {

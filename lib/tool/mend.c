@@ -1,4 +1,4 @@
-/* What mr-import does to a surface that has come apart, in an order in which each needs the last. */
+/* The repairs of mr-import, in an order in which each needs the last. */
 #include "tool/tool.h"
 
 #include "base/text.h"
@@ -6,13 +6,13 @@
 #include "space/outward.h"
 #include "space/stitch.h"
 
-/* What was done to a model, in words, and how often in all. */
+/* The repairs of a model, in words, and their total count. */
 typedef struct deeds {
 	mr_text words;
 	size_t count;
 } deeds;
 
-/* "12 faces turned", behind what was done before; nothing of none. */
+/* Appends "12 faces turned"; nothing for none. */
 static void
 add_deed(deeds *d, size_t count, const char *what)
 {

@@ -15,7 +15,7 @@ typedef struct places {
 	size_t n;
 } places;
 
-/* The side of each place's normal, where something tells; NULL: nothing does. */
+/* The side of each place's normal, if something decides it; NULL: nothing does. */
 static void
 find_sides(mr_ctx *ctx, const places *q, const mr_normals_opts *o, const mr_v3 *there, const mr_v3 *scanner,
     const mr_v3 **side)

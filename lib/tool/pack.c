@@ -10,8 +10,8 @@
  * there are boundaries or creases; it is finer than the mean edge, or the domain would fold. */
 enum { COARSER = 6, COARSER_AT_CURVES = 2, FINER_THAN_EDGES = 4, SEARCH = 6, TRIES = 3 };
 enum { LOOKED_AT = 20000 }; /* faces, or points, of each surface while the number of bytes is sought */
-/* The search ends within this share of the error; an unreachable error becomes that of all bits times AMPLE.
- */
+/* The search ends within this share of the error; an unreachable error becomes the error of all bits times
+ * AMPLE. */
 #define NEARLY 0.98
 #define AMPLE  1.1
 /* Errors that are tried for a number of bytes. */
@@ -290,8 +290,8 @@ fewest_bits(mr_ctx *ctx, const packing *k, const double *height, double most)
 
 /*
  * The fewest bytes that reach the error, or AMPLE times the error of all bits if that is larger.  Model:
- * error^2 is that of all bits plus a share of the squared error of the heights; the share is estimated anew
- * in each step.
+ * error^2 is the squared error of all bits plus a share of the squared error of the heights; the share is
+ * estimated anew in each step.
  */
 static size_t
 search(mr_ctx *ctx, packing *k, const mr_domain *d)
@@ -354,7 +354,7 @@ pack_for(mr_ctx *ctx, packing *k, const mr_pack_opts *o, mr_domain *d)
 static mr_status
 room_for_bits(mr_ctx *ctx, const packing *k, const mr_pack_opts *o, size_t *room)
 {
-	/* the count of bits takes up to 4 more bytes than that of none */
+	/* the count of bits takes up to 4 more bytes than a count of none */
 	size_t head = mr_packed_file(ctx, &k->p, &k->head, (mr_packed_bytes){ NULL, 0 }).size + 4;
 
 	*room = o->bytes ? mr_packed_room(head, o->bytes) : SIZE_MAX;

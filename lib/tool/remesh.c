@@ -14,7 +14,7 @@ check_options(mr_ctx *ctx, const mr_remesh_opts *o)
 	return mr_check_number(ctx, "adaptive", o->adaptive, 0, 1e300);
 }
 
-/* The columns of m for what it became. */
+/* Carries the columns of m to its successor. */
 static mr_status
 carry(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const mr_places *over,
     const mr_kept *kept, mr_carried **carried, size_t *n)

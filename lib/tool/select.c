@@ -1,11 +1,11 @@
-/* mr-select and mr-crop: regions by rules, and what is left of a layer by them. */
+/* mr-select and mr-crop: regions by rules, and the part of a layer that they keep. */
 #include "tool/tool.h"
 
 #include "base/options.h"
 #include "edit/handles.h"
 #include "mesh/subset.h"
 
-/* What names the faces: groups, objects and materials. */
+/* The names of faces: groups, objects and materials. */
 static mr_status
 read_groups(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_groups g[MR_NAMINGS])
 {
@@ -46,7 +46,7 @@ look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 	mr_finding found = { .kind = MR_UNHELD,
 		.layer = m->name,
 		.what = "a handle meets fixed vertices with nothing free between: free a ring around it, or "
-		        "select all of the limb" };
+			"select all of the limb" };
 	bool *leads = MR_NEW_ZERO(ctx, mr_regions_of(ctx, region, m->nv).n, bool);
 
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
@@ -109,7 +109,7 @@ crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_c
 	MR_TRY(read_groups(ctx, f, &m, groups));
 	region = MR_NEW(ctx, m.nv, uint32_t);
 	keep = MR_NEW(ctx, m.nv, bool);
-	for (size_t v = 0; v < m.nv; v++) /* what is kept is said, or what is dropped is */
+	for (size_t v = 0; v < m.nv; v++) /* names the kept part, or the dropped one */
 		region[v] = mr_selection_begins(s) == MR_REGION_FREE ? MR_REGION_FIXED : MR_REGION_FREE;
 	MR_TRY(mr_select(ctx, f, &m, groups, s, region, NULL));
 	for (size_t v = 0; v < m.nv; v++)
@@ -130,7 +130,7 @@ mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, m
 	MR_ON_COPY(ctx, f, done, result, r, crop_by(ctx, &done, layer, s, &r));
 }
 
-/* What the tool calls a rule for this region. */
+/* The tool's name of a rule for this region. */
 static const char *
 option_of(mr_ctx *ctx, uint32_t region)
 {

@@ -1,4 +1,4 @@
-/* mr-simplify: fewer faces, with what is known of the surface carried over. */
+/* mr-simplify: fewer faces, with the surface's columns carried over. */
 #include "simplify/simplify.h"
 
 #include "base/options.h"
@@ -12,15 +12,16 @@
 /* By default, but for control meshes. */
 enum { FACES_A_FACE = 10 };
 
-/* Spacings of the points that a control mesh may be off by default, beyond their noise: what is thinner would
- * be webbed where it joins. */
+/* Spacings of the points that a control mesh may be off by default, beyond their noise: thinner parts would
+ * be webbed where they join. */
 static const double OFF = 0.3;
 
-/* Of the diagonal, that a control mesh of a mesh may be off by default, with no more than OWN faces. */
+/* The share of the diagonal that a control mesh of a mesh may be off by default, with no more than OWN
+ * faces. */
 static const double NEAR = 5e-4;
 enum { OWN = 2000 };
 
-/* The points that a control mesh is for: those of the frame, if there are any. */
+/* The points that a control mesh is for: the frame's, if there are any. */
 static mr_status
 read_points(mr_ctx *ctx, mr_frame *f, const char *result_layer, mr_simplify_cloud *c)
 {
@@ -71,7 +72,7 @@ limit_by_mesh(mr_ctx *ctx, const mr_mesh *m, mr_simplify_opts *o)
 	o->most = o->faces > OWN ? o->faces : OWN;
 }
 
-/* Where to stop by default: by the points, or by the mesh that a control mesh comes from. */
+/* The default target: by the points, or by the mesh that a control mesh comes from. */
 static void
 limit_by_frame(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opts *o)
 {
@@ -119,7 +120,7 @@ replace(mr_ctx *ctx, mr_frame *f, const uint32_t *onto, mr_successor s)
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 
-/* The vertices that stay: those of boundaries, of seams or of a region. */
+/* The vertices that stay: on boundaries, on seams or in a region. */
 static mr_status
 lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint8_t *seam, const mr_simplify_opts *o,
     mr_simplify_ties *ties)
@@ -140,7 +141,7 @@ lock(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint8_t *seam, const mr_s
 	return MR_OK;
 }
 
-/* Whether it makes the control mesh of a mesh, whose faces tell its sharp edges. */
+/* Whether it makes the control mesh of a mesh, whose faces define its sharp edges. */
 static bool
 of_mesh(const mr_simplify_opts *o)
 {
@@ -167,10 +168,11 @@ may_be_sharp(
 	return MR_OK;
 }
 
-/* Of white beside black, of the diagonal: as if the surface were so far off. */
+/* The error of white beside black, relative to the diagonal: as if the surface were so far off. */
 static const double WHITE = 0.05;
 
-/* What a surface is seen to have beside its shape: texture coordinates, as lengths on it, and colours. */
+/* The visible attributes of a surface besides its shape: texture coordinates, as lengths on it, and
+ * colours. */
 static mr_status
 find_values(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, double weight, mr_simplify_ties *ties)
 {

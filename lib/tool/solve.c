@@ -76,7 +76,7 @@ read_maps(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_maps **map
 	return MR_OK;
 }
 
-/* The column with a layer's positions at rest: to pose, those of the undeformed solve, if there was one. */
+/* The column with a layer's positions at rest: for posing, the undeformed solve's, if there was one. */
 static mr_status
 read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **column)
 {
@@ -88,7 +88,7 @@ read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **col
 	return MR_OK;
 }
 
-/* Nothing is to be solved for: the positions are those of rest. */
+/* Nothing is to be solved for: the positions are the rest positions. */
 static mr_status
 keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 {
@@ -103,7 +103,7 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
 }
 
-/* Where a control mesh was that leaves its displacement for the first time, or is posed without one. */
+/* The rest of a control mesh that leaves its displacement for the first time, or is posed without one. */
 static mr_status
 keep_encoded(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool posing)
 {

@@ -9,7 +9,7 @@
 static const double LEAST = 0.01;
 enum { LEAST_VERTICES = 2 };
 
-/* The rows of all parts, one part behind the other. */
+/* The rows of all parts, one part after the other. */
 typedef struct parts {
 	mr_connected of;
 	uint32_t *vertex, *face, *number;
@@ -17,7 +17,7 @@ typedef struct parts {
 	size_t given;                      /* so many are large enough */
 } parts;
 
-/* Sorts n rows by part, those of one in ascending order.  t: rows are of faces; NULL: of vertices. */
+/* Sorts n rows by part, in ascending order within one.  t: rows are of faces; NULL: of vertices. */
 static void
 sort_rows(mr_ctx *ctx, const mr_connected *c, const mr_tri *t, size_t n, uint32_t **row, size_t **first)
 {

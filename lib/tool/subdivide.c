@@ -80,7 +80,7 @@ subdivide(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_subdivide_opts *o
 	return MR_OK;
 }
 
-/* Folds that the rules made of long thin triangles; those of the input stay, in two edges a step. */
+/* Folds that the rules made of long thin triangles; the input's stay, in two edges a step. */
 static void
 look_for_folds(mr_ctx *ctx, const mr_refined *r)
 {

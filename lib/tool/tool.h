@@ -6,8 +6,8 @@
 #include "edit/select.h"
 #include "mesh/layers.h"
 
-/* Welds, stitches, repairs and turns the layer, as the options ask; one finding says what was done, and what
- * is left.  unit: the length that o->weld counts. */
+/* Welds, stitches, repairs and turns the layer, as the options ask; one finding lists the repairs and the
+ * remaining flaws.  unit: of o->weld. */
 mr_status mr_layer_mend(
     mr_ctx *ctx, mr_frame *f, const char *layer, const mr_import_opts *o, double unit) MR_WARN_UNUSED;
 
@@ -17,7 +17,7 @@ bool mr_sample_meets_faces(const mr_frame *f, const char *layer);
 /* Reports MR_STALE, of keys, where control has moved and `from`, which is sampled, has not followed. */
 mr_status mr_sample_report_move(mr_ctx *ctx, mr_frame *f, const char *from);
 
-/* mr_select_frame and mr_crop_frame, which frees what is kept, for rules that were parsed before. */
+/* mr_select_frame and mr_crop_frame, which frees the kept data, for rules that were parsed before. */
 mr_status mr_select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result);
 mr_status

@@ -157,7 +157,7 @@ mark_layers(void *arg, size_t begin, size_t end)
 		}
 }
 
-/* The nodes after those of word w of a row. */
+/* The nodes after word w of a row. */
 static uint64_t
 next_of(const uint64_t *row, size_t w, size_t words)
 {
@@ -218,7 +218,7 @@ add_cube(mr_ctx *ctx, march *m, const kind *k, size_t x, size_t y, size_t z)
 	}
 }
 
-/* Of the cubes between layers z and z + 1 those whose corners are not all alike. */
+/* The cubes between layers z and z + 1 whose corners are not all alike. */
 static void
 add_cubes(mr_ctx *ctx, march *m, size_t z)
 {

@@ -15,10 +15,10 @@ static const double RANGE = 0.4;
 
 enum { POINTS_LEAST = 12, VERTICES_LEAST = 36, MANY = 100 };
 
-/* What the points around a wall that stays have to themselves, as a share of its area. */
+/* The area of the points around a wall that stays, as a share of its area. */
 static const double SHARE_LEAST = 0.3;
 
-/* Of a wall that points cover evenly: how often its vertices see a point, and how many they are in a squared
+/* For a wall that points cover evenly: how often its vertices see a point, and how many they are in a squared
  * step of the grid by which they see them. */
 static const double SEEN = 4.5, PER_STEP = 6;
 
@@ -122,7 +122,7 @@ nearest_of(run r)
 	return r.first > MIDDLE ? r.first : r.last < MIDDLE ? r.last : MIDDLE;
 }
 
-/* That of the level that is wanted, if it lasts; else the longest, of equal ones the nearest. */
+/* The interval of the wanted level, if it lasts; else the longest, of equal ones the nearest. */
 static run
 lasting_run(const int64_t *euler)
 {

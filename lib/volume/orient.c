@@ -7,8 +7,8 @@
 
 enum { BINS = 256, GRAIN = 4096 };
 
-/* From where a point, or a part, knows its own sign: a share of the mean vote, from one side alone.  Of 177
- * clouds of closed bodies 147 are right so, 142 by a tenth; by LOUD alone 32 of 59 cut open, not 50. */
+/* A point, or a part, knows its own sign from this share of the mean vote on, or from one side alone.  A
+ * tenth, or LOUD alone, gets fewer clouds right. */
 static const double LOUD = 0.25, ONE_SIDED = 0.7;
 
 /* Parts joined so far: the sign of a point is its own times those up to the root. */

@@ -4,9 +4,8 @@
 
 #include "base/disjoint_sets.h"
 
-/* Of the rise: how far beyond 0 and 1 the indicator is on what is inside out, around a point and of the part:
- * 0.18 to 0.5 in hollow bodies, 0.13 at most of others.  By 0 rows of a sonar are torn, by 0.1 bores closed.
- */
+/* Relative to the rise: how far beyond 0 and 1 the indicator is on the wrong side, around a point and of the
+ * part: 0.18 to 0.5 in hollow bodies, at most 0.13 in others.  At 0 sonar rows tear, at 0.1 bores close. */
 static const double BEYOND = 0.05, BEYOND_PART = 0.15;
 
 /* Share of the points that a part has: noise makes smaller ones. */

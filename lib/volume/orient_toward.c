@@ -1,12 +1,12 @@
-/* Signs of the planes' normals by what is known of their sides: normals that came with the points, or from
- * where these were seen. */
+/* Signs of the planes' normals by known sides: normals that came with the points, or the directions to the
+ * scanner. */
 #include "volume/parts.h"
 #include "volume/volume.h"
 
-/* A direction as near to its place's plane as this (the cosine to the normal) tells nothing of a side. */
+/* A direction as near to its place's plane as this (the cosine to the normal) does not decide the side. */
 static const double ALONG = 0.1;
 
-/* Normals are those of planes from this cosine on, and planes alike from this likeness. */
+/* Normals match planes from this cosine on, and planes are alike from this likeness. */
 static const double NEAR = 0.5, ALIKE = 0.8;
 
 /* How much a normal is on the side that is known; 0 where that is not. */

@@ -24,7 +24,8 @@ typedef struct mr_volume_cloud {
 enum { DEPTHS = 3 };
 
 /*
- * Of the n places of a sampling, which become the samples' own, a share, and their planes; no depths yet.
+ * Takes a share of the n places of a sampling, which become the samples' own, and their planes; no depths
+ * yet.
  */
 mr_status mr_volume_samples(
     mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share, mr_volume_cloud *s);
@@ -36,15 +37,15 @@ mr_status mr_volume_planes(mr_ctx *ctx, const mr_sampling *of, mr_volume_cloud *
 /* Gives normals the signs by which they point out of what the points enclose.  volume.c */
 mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
 
-/* Gives normals the signs of the directions, 0 or no number where none is known: there neighbours tell, as
- * everywhere where toward is NULL.  *untold: points of parts that no direction tells.  orient_toward.c */
+/* Gives normals the signs of the directions, 0 or NaN: unknown, there neighbours decide, as everywhere if
+ * toward is NULL.  *untold: points of parts without a direction.  orient_toward.c */
 mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
 
 /* Reports MR_UNCERTAIN where neighbours on alike planes have signs that are not.  volume.c */
 void mr_volume_report_patches(mr_ctx *ctx, const mr_volume_cloud *s);
 
-/* What directions are worth: how many tell a side; shares of those within 60 degrees of their planes'
- * normals, and of neighbours on alike planes that get alike signs from them.  NaN of none. */
+/* The quality of directions: how many decide a side; the shares within 60 degrees of their planes' normals,
+ * and of neighbours on alike planes with alike signs.  NaN for none. */
 typedef struct mr_volume_sides {
 	size_t told;
 	double near, alike;
@@ -92,7 +93,7 @@ size_t mr_multigrid_nodes(size_t cells, size_t levels);
 /* Levels for a grid whose longest side has so many cells. */
 size_t mr_multigrid_levels(size_t cells);
 
-/* Arrays for all levels, zero; u: that of the finest, the caller's. */
+/* Arrays for all levels, zero; u: the finest one's, the caller's. */
 void mr_multigrid_begin(
     mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, mr_grid_multigrid *m);
 
@@ -118,7 +119,7 @@ typedef struct mr_grid_points {
 	uint32_t *order;
 } mr_grid_points;
 
-/* Of the points of a depth, or of all (DEPTHS); grid is theirs. */
+/* Samples the points of a depth, or all (DEPTHS); grid is theirs. */
 void mr_volume_field(
     mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *grid, unsigned depth, mr_grid_points *f);
 

@@ -4,7 +4,7 @@
 #include "base/sort.h"
 
 /* A point stands for at most so many times the area of most of its neighbours: one far from them is no
- * surface.  Of the wraps that volume.c counts 128 of 164 are right by 2, 129 without, 130 so. */
+ * surface. */
 static const double AREA_MOST = 4;
 
 enum { NEAREST = 16, LINKS = 8, TOLD_LEAST = 64 };
@@ -62,7 +62,7 @@ limit_areas(mr_ctx *ctx, mr_volume_cloud *s)
 	mr_mark_release(ctx, mark);
 }
 
-/* At equal strides along the curve, so that every place keeps its share: what is left may be less noisy. */
+/* At equal strides along the curve, so that every place keeps its share: the mean may be less noisy. */
 static void
 thin_out(mr_volume_cloud *s, double share, mr_sampling *of)
 {

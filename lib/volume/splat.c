@@ -7,7 +7,7 @@
  * and two above, so slabs of four and every other slab at once never meet. */
 enum { SLAB = 4 };
 
-/* Where p lies in the grid: its cell, and how far into it. */
+/* The position of p in the grid: its cell, and how far into it. */
 typedef struct spot {
 	size_t x[3];
 	double t[3];

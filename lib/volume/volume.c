@@ -1,6 +1,6 @@
-/* The volume of a cloud without normals: a soft flood, absorbed by the points, tells the side of those
- * exposed (Jeong, Kim 2001), planes alike pass it on, and the indicator (Kazhdan et al. 2006) corrects the
- * hidden. */
+/* The volume of a cloud without normals: a soft flood, absorbed by the points, finds the side of exposed
+ * points (Jeong, Kim 2001), alike planes pass it on, and the indicator (Kazhdan et al. 2006) corrects hidden
+ * ones. */
 #include "volume/volume.h"
 
 #include "base/parallel.h"
@@ -81,7 +81,7 @@ choose_grid(mr_box box, double spacing, size_t n, size_t cells, mr_grid *g, size
 	}
 }
 
-/* Of the points: those that are as far apart as the grid shows. */
+/* Selects points that are as far apart as the grid shows. */
 static double
 useful_share(const mr_v3 *point, size_t n, double spacing, const mr_volume_opts *opts)
 {
@@ -97,8 +97,8 @@ useful_share(const mr_v3 *point, size_t n, double spacing, const mr_volume_opts 
 	return coarser > COARSER ? 1 / (coarser * coarser) : 1;
 }
 
-/* What the normals enclose (the divergence theorem), of the sizes of its terms: 0.07 of one of 59 closed
- * models and 0.2 and more of the others. */
+/* The volume that the normals enclose (the divergence theorem), relative to the sizes of its terms: 0.2 and
+ * more for nearly all closed models. */
 static double
 enclosed_share(const mr_volume_cloud *s)
 {
@@ -146,7 +146,7 @@ measure_across(void *arg, size_t begin, size_t end)
 		a->out[i] = across_at(a, i * a->v->s.n / a->some);
 }
 
-/* value: how much more of the flood, 1 - u, there is on a normal's side than behind it; out: what of it is on
+/* value: how much more of the flood, 1 - u, there is on a normal's side than on the other; out: the part on
  * both. */
 static void
 measure_flood(void *arg, size_t begin, size_t end)
@@ -171,7 +171,7 @@ is_torn(const volume *v)
 	return (1 - j.alike) * sqrt((double)v->s.n) > TORN;
 }
 
-/* Of the votes: how much of them is against the signs. */
+/* The share of the votes against the signs. */
 static double
 against_share(const volume *v)
 {
@@ -210,8 +210,8 @@ mark_seen(volume *v)
 		v->seen[i] = v->value[i] > loud;
 }
 
-/* What diffuses in from outside, u, is 1 - w: w is zero on the faces of the grid and absorbed to 1 at points.
- * w: of the grid's nodes, for the while. */
+/* The flood from outside, u, is 1 - w: w is zero on the faces of the grid and absorbed to 1 at points.  w: of
+ * the grid's nodes, for the while. */
 static mr_status
 orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 {
@@ -251,7 +251,7 @@ drop_sides(mr_ctx *ctx, volume *v)
 	v->side.toward = NULL;
 }
 
-/* Of the points that the flood sees: the share of those whose side is another by it, with such normals. */
+/* The share of the points seen by the flood whose normals point to the other side. */
 static double
 unseen_share(const volume *v, const mr_v3 *by_flood)
 {
@@ -350,7 +350,7 @@ spread_normals(mr_ctx *ctx, const volume *v, mr_grid_multigrid *m)
 	}
 }
 
-/* Of a sheet the indicator is none. */
+/* A sheet has no indicator. */
 static bool
 may_turn(const volume *v)
 {
@@ -387,7 +387,7 @@ solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 	}
 }
 
-/* How far from p along d, in steps, the value is above (rise 1) or below (-1) `at`, what it is at p: THIN at
+/* How far from p along d, in steps, the value is above (rise 1) or below (-1) `at`, its value at p: THIN at
  * most. */
 static double
 width(const mr_grid *g, const float *u, mr_v3 p, double at, mr_v3 d, double rise)
@@ -399,8 +399,8 @@ width(const mr_grid *g, const float *u, mr_v3 p, double at, mr_v3 d, double rise
 	return t;
 }
 
-/* The value on the surface to be, near each point: its own; where the inside, or a gap, is thinner than the
- * grid can hold, that of a place beyond, so that it becomes thicker. */
+/* The value on the surface to be, near each point: its own; if the inside, or a gap, is thinner than the grid
+ * can hold, the value of a place beyond, so that it becomes thicker. */
 static void
 measure_level(void *arg, size_t begin, size_t end)
 {

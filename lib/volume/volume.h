@@ -9,8 +9,7 @@
 
 enum { MR_VOLUME_LEVELS = 9 }; /* that are looked at for their topology */
 
-/* What is known of the outer sides of points: a direction of each, of any length, 0 or no number where none
- * is known. */
+/* Known outer sides of points: a direction of each, of any length; 0 or NaN: unknown. */
 typedef struct mr_outer_sides {
 	const mr_v3 *toward;
 	bool normals; /* these are normals; else from where the points were seen */
@@ -32,7 +31,7 @@ typedef struct mr_volume_opts {
 /*
  * The surface, closed, manifold, oriented outward, any number of components, within about a cell of the
  * points; in the arena.  Holes of the sampling are closed; parts and cavities that hardly any points bound
- * are left out, and outliers; of points nearer to each other than a grid can tell, some.  MR_EMESH where the
+ * are left out, and outliers; and some of the points too near to each other for the grid.  MR_EMESH if the
  * points are flat or enclose nothing; MR_ERANGE for a grid of more than 4096 cells, and for parts so far
  * apart that no grid holds both.
  */
@@ -41,10 +40,10 @@ mr_status mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_vol
 
 /*
  * Unit normals of n distinct places along the Z curve, of least squares through `neighbours` nearest of the
- * sampling.  toward: n directions to the side that a normal is on, of any length, 0 where none is known:
- * there neighbours tell, and of parts that have none at all it is as without.  Without toward (NULL) they
- * point out of what the places enclose, as mr_volume_wrap finds it; those of flat clouds point all to one
- * side.  MR_EMESH of fewer than three places, and on a line. normal: n, the caller's.
+ * sampling.  toward: n directions to the side that a normal is on, of any length, 0: unknown, there
+ * neighbours decide; parts without any are treated as without toward.  Without toward (NULL) they point out
+ * of the enclosed volume, as mr_volume_wrap finds it; in flat clouds all point to one side.  MR_EMESH for
+ * fewer than three places, and on a line. normal: n, the caller's.
  */
 mr_status mr_places_normals(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, const mr_v3 *toward,
     mr_v3 *normal) MR_WARN_UNUSED;

@@ -53,7 +53,7 @@ mr_wrap_cloud_open(
 	own = MR_NEW(ctx, cloud->n, double);
 	for (size_t i = 0; i < cloud->n; i++) {
 		own[i] = s->spacing[index[i]];
-		cloud->area += own[i] * own[i]; /* in an order that is not that of the points given */
+		cloud->area += own[i] * own[i]; /* in an order that does not depend on the points' order */
 	}
 	cloud->p = p;
 	cloud->own = own;

@@ -74,8 +74,8 @@ mr_wrap_remesh(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *opts
 	return mr_wrap_dyn(ctx, &out, d);
 }
 
-/* Of n places, from some of them at equal strides: adds those that are far from the surface to
- * c->unreached, the farthest to c->at; *distance: of the `some`, the caller's. */
+/* Looks at some of n places, at equal strides: adds places far from the surface to c->unreached, the farthest
+ * to c->at; *distance: of the `some`, the caller's. */
 static void
 look_at_places(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_bvh *bvh, const mr_v3 *p, size_t n,
     size_t some, double *distance, double *farthest, mr_wrap_cover *c)

@@ -56,7 +56,7 @@ measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, support *s)
 	return MR_OK;
 }
 
-/* Whether the points hardly support even what they do not leave open. */
+/* Whether the points hardly support even the closed part. */
 static void
 find_flicker(mr_ctx *ctx, const support *s, size_t nv, bool *flickers)
 {
@@ -71,7 +71,7 @@ find_flicker(mr_ctx *ctx, const support *s, size_t nv, bool *flickers)
 	mr_mark_release(ctx, mark);
 }
 
-/* Of the vertices without support, those joined by edges. */
+/* Connects vertices without support along edges. */
 static void
 find_regions(mr_ctx *ctx, const mr_mesh *m, const double *far, uint32_t **set)
 {

@@ -75,14 +75,14 @@ enum { MR_WRAP_SAMPLES = 1 << 14 /* points and parts of the area that are measur
 mr_status
 mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c);
 
-/* What of a closed wrap spans no points. */
+/* Parts of a closed wrap that span no points. */
 typedef struct mr_wrap_lids {
 	size_t openings; /* cut out */
 	size_t holes;    /* left closed: those wider than gaps of the sampling */
 	size_t doubtful; /* holes, and openings hardly wider than these may be */
 	double width;    /* of the widest of them, in spacings */
 	mr_v3 at;        /* its middle */
-	bool flickers;   /* the points hardly support what they do not leave open: none is cut out */
+	bool flickers;   /* the points hardly support the closed part: none is cut out */
 } mr_wrap_lids;
 
 /* Spacings: openings that are wider stay open. */
@@ -94,7 +94,7 @@ typedef struct mr_wrap {
 	mr_wrap_cover cover;
 	mr_wrap_lids lids;
 	size_t folds;
-	mr_wrap_result found; /* method, and what it took; the rest at the end */
+	mr_wrap_result found; /* method, and its cost; the rest at the end */
 } mr_wrap;
 
 /* Measures w->cover and w->folds. */

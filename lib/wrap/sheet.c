@@ -1,5 +1,5 @@
-/* Height fields: a flat lattice under the points, cut to their outline and lifted onto them.  What lies over
- * the rest of the points, as a table over a floor, is a field of its own. */
+/* Height fields: a flat lattice under the points, cut to their outline and lifted onto them.  Points over the
+ * others, as a table over a floor, become a field of their own. */
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "space/local_planes.h"
@@ -16,8 +16,8 @@ static const double OFF_MOST = 0.2;      /* share of the pairs */
 static const double SECOND = 2.2, BETWEEN_MOST = 0.13;
 static const double NOISE_MOST = 0.5; /* spacings */
 
-/* Links of a sheet: their height and length, in lengths and spacings.  Of its points so many are over others
- * where it is a layer; of normals' ways from the middle so much is outward of a slab. */
+/* Links of a sheet: their height and length, in lengths and spacings.  A layer has at least that share of its
+ * points over others; a slab at least that share of its normals outward from the middle. */
 static const double STEEP = 0.7, REACH = 3, OVER = 0.8, APART = 0.5;
 
 enum { PROBES = 4096, PLANE_MOST = 128, AROUND = 16, PAIRS = 9, HEIGHTS = 5, LAYERS_MOST = 64 };
@@ -102,8 +102,8 @@ flatten(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 *axis, mr_wrap_clou
 	return mr_near_build(ctx, p, cloud->n, &flat->near);
 }
 
-/* Of pairs of neighbours in the projection: the share that is not on one sheet, and of these the share that
- * is not on two. */
+/* Pairs of neighbours in the projection: the share that is not on one sheet, and of these the
+ * share not on two. */
 typedef struct pairs {
 	double off, between;
 } pairs;
@@ -152,7 +152,7 @@ find_parts(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 up, uint32_t *set)
 	return MR_OK;
 }
 
-/* Of the parts but the largest and the small ones: how many points are over or under those of others. */
+/* How many points of the parts, except the largest and the small ones, are over or under other parts. */
 static mr_status
 count_over(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, uint32_t *set,
     const uint32_t *size, uint32_t base, uint32_t *over)
@@ -403,7 +403,7 @@ make_sheet(mr_ctx *ctx, const mr_wrap_field *f, const mr_wrap_opts *o, mr_wrap_l
 	return lift(ctx, &f->cloud, &f->flat, f->axis, m);
 }
 
-/* What is wide but in the projection, as the wall behind what hides it, is an opening too. */
+/* A gap that is narrow only in the projection, as at a hidden wall, is an opening too. */
 static mr_status
 wrap_field(mr_ctx *ctx, const mr_wrap_field *f, const mr_wrap_opts *o, mr_wrap_lids *lids, mr_dyn *d)
 {

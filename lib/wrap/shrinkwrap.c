@@ -1,5 +1,5 @@
 /* Jeong, Kim 2001, section 3: the cube to the letter, and a template; beyond it the volume, of any topology,
- * and height fields as what they are. */
+ * and height fields. */
 #include "wrap/shrinkwrap.h"
 
 #include "base/text.h"
@@ -12,13 +12,13 @@
 /* By default: both come to rest in as many. */
 enum { ITERATIONS = 20, TEMPLATE_SETTLES = 4 };
 
-/* Of mr_wrap_result.method, beside the methods. */
+/* Values of mr_wrap_result.method, beside the methods. */
 enum { TEMPLATE = MR_WRAP_VOLUME + 1, SHEET };
 
-/* So few points tell nothing of handles and limbs: a cube goes around them. */
+/* So few points show no handles and limbs: a cube goes around them. */
 enum { FEW = 64 };
 
-/* So few places, or places so far apart in diagonals, tell no handles. */
+/* So few places, or places so far apart in diagonals, show no handles. */
 enum { SURE_LEAST = 100 };
 static const double SURE_MOST = 0.07;
 
@@ -123,7 +123,7 @@ report_uncertain(mr_ctx *ctx, const char *what, const mr_v3 *at)
 	mr_found(ctx, &f);
 }
 
-/* Where its topology hangs on the level, on so few points, or on how wide openings may be. */
+/* Reports a topology that depends on the level, on so few points, or on how wide openings may be. */
 static void
 report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 {
@@ -144,7 +144,7 @@ report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    &l->at);
 }
 
-/* Where the wrap is poor. */
+/* Reports a poor wrap. */
 static void
 report_cover(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 {
@@ -164,7 +164,7 @@ report_cover(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	mr_gaps_report(ctx, "control", &c->cover.gaps);
 }
 
-/* Of an open surface both sides are outside, and it faces the points' own; a closed one is outward. */
+/* An open surface has two outer sides, and faces the points' own; a closed one faces outward. */
 static void
 take_side(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_mesh *m)
 {
@@ -234,7 +234,7 @@ mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *samp
 	return MR_OK;
 }
 
-/* By the steps of the paper, which turn no face, and at the end those of all that is near the points. */
+/* By the steps of the paper, which turn no face, and at the end the faces near the points. */
 mr_status
 mr_wrap_template(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, const mr_mesh *start,
     const mr_wrap_opts *opts, mr_v3 *p, mr_wrap_result *result)

@@ -8,10 +8,9 @@
 #include "volume/volume.h"
 
 /*
- * Wraps n points; those that repeat a place count once, outliers not at all.  sampling, sides: what is
- * known of the points', or NULL.  The mesh is manifold, and open where the options leave it so.  MR_EMESH
- * where they cannot have a closed surface: fewer than four places, collinear, coplanar.  out: in the arena.
- * result: or NULL.
+ * Wraps n points; those that repeat a place count once, outliers not at all.  sampling, sides: the points',
+ * or NULL if unknown.  The mesh is manifold, and open where the options leave it so.  MR_EMESH if they cannot
+ * have a closed surface: fewer than four places, collinear, coplanar.  out: in the arena.  result: or NULL.
  */
 mr_status mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling,
     const mr_outer_sides *sides, const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result);

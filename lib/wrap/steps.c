@@ -17,7 +17,7 @@ typedef struct step {
 	mr_v3 *to;
 } step;
 
-/* Where points are sparse their mean level is not the surface's, and over a hole there is none. */
+/* The mean level of sparse points is not the surface's, and over a hole there is none. */
 static double
 trust(const step *s, uint32_t v)
 {
