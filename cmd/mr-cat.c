@@ -10,7 +10,7 @@ static const cmd_opt table[] = {
 	{ 'u', "unpack", CMD_FLAG, &unpack, 0, 0, NULL, "unpack the columns", NULL },
 	{ 0, "merge", CMD_FLAG, &merge, 0, 0, NULL, "put the layers of all FILEs into one frame", NULL },
 	{ 0, "append", CMD_FLAG, &append, 0, 0, NULL,
-	    "make one frame of all: layers of one name become one, their rows behind each other", NULL },
+	    "make one frame of all: layers of one name become one, their rows one after another", NULL },
 	{ 0 },
 };
 

@@ -11,9 +11,8 @@ static const cmd_opt table[] = {
 	{ 0, "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "J",
 	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
 	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",
-	    "what to put the mesh together from (default: what was worked on last)", NULL },
-	{ 0, "no-check", CMD_FLAG, &blind, 0, 0, "",
-	    "do not look for folds and intersections that come of the motion", NULL },
+	    "what to rebuild the mesh from (default: the layer worked on last)", NULL },
+	{ 0, "no-check", CMD_FLAG, &blind, 0, 0, "", "do not look for folds and intersections", NULL },
 	{ 0 },
 };
 

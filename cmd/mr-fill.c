@@ -5,7 +5,7 @@ static mr_fill_opts opts = MR_FILL_DEFAULTS;
 
 static const cmd_opt table[] = {
 	{ 0, "max-length", CMD_LENGTH, CMD_LENGTH_OF(mr_fill_opts, opts, max_length), 0, 1e300, "LENGTH",
-	    "leave longer loops open; 0: those alone that are the rim of an open surface", NULL },
+	    "leave longer loops open; 0: only the rims of open surfaces", NULL },
 	{ 0, "loops", CMD_COUNT, &opts.loops, 0, 4e9, "N", "fill the N shortest; 0: all", NULL },
 	{ 'k', "order", CMD_COUNT, &opts.order, 1, 3, "1|2|3",
 	    "membrane, thin plate, least change of curvature", NULL },

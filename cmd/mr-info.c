@@ -1,4 +1,4 @@
-/* mr-info -- report what a stream holds, and measure its surfaces.  See man/mr-info.1. */
+/* mr-info -- list the contents of a stream, and measure its surfaces.  See man/mr-info.1. */
 #include "cmd.h"
 #include "findings.h"
 #include "measure/report.h"
@@ -11,9 +11,9 @@ static const char *first; /* law that is broken, with its frame: in c->keep */
 static const cmd_opt table[] = {
 	{ 0, "json", CMD_FLAG, &opts.json, 0, 0, NULL, "one JSON object a frame, one a line", NULL },
 	{ 0, "check", CMD_FLAG, &opts.check, 0, 0, NULL,
-	    "check every column and the laws of the layers; exit 1 where one is broken", NULL },
+	    "check every column and the laws of the layers; exit 1 if one is broken", NULL },
 	{ 0, "verdict", CMD_FLAG, &judge, 0, 0, NULL,
-	    "a line a frame, no more: good, poor: WHY or unusable: WHY, by what the tools before found",
+	    "print only good, poor: WHY or unusable: WHY for each frame, by the findings of earlier tools",
 	    NULL },
 	{ 0, "no-intersections", CMD_FLAG, &opts.skip_intersections, 0, 0, NULL,
 	    "do not look for faces that intersect", NULL },
@@ -61,7 +61,7 @@ fail_where_broken(cmd *c)
 }
 
 const cmd_tool cmd_this = {
-	.summary = "report what a stream holds, and measure its surfaces",
+	.summary = "list the contents of a stream, and measure its surfaces",
 	.options = table,
 	.frame = report,
 	.finish = fail_where_broken,

@@ -1,4 +1,4 @@
-/* mr-map -- heights over a control mesh to a picture, and back; what a surface looks like to another.  See
+/* mr-map -- heights over a control mesh to a picture, and back; a surface baked for another.  See
  * man/mr-map.1. */
 #include "cmd.h"
 #include "formats/filename.h"
@@ -14,7 +14,7 @@ static const cmd_opt table[] = {
 	    NULL },
 	{ 'r', "read", CMD_TEXT, &from, 0, 0, "PICTURE", "read the heights in this picture", NULL },
 	{ 'b', "bake", CMD_TEXT, &baked, 0, 0, "SOURCE",
-	    "with -w: write what this stream or model looks like instead, as NAME-color.png and "
+	    "with -w: bake colours and normals of this stream or model into NAME-color.png and "
 	    "NAME-normal.png",
 	    NULL },
 	{ 0, "texture", CMD_TEXT, &baking.texture, 0, 0, "FILE", "picture on SOURCE", NULL },
@@ -27,7 +27,7 @@ static const cmd_opt table[] = {
 	    "heights of black and white (default: the least and the greatest, or as the picture says)",
 	    NULL },
 	{ 0, "size", CMD_COUNT, &opts.side, 1, 32767, "N",
-	    "texels that a side of a picture may have; with --bake its size (default: 2048)", NULL },
+	    "largest side of a picture in texels; with --bake its size (default: 2048)", NULL },
 	{ 0, "gutter", CMD_COUNT, &opts.gutter, 1, 256, "N",
 	    "texels around each triangle (with --bake 4, around each chart)", NULL },
 	{ 0 },
@@ -88,7 +88,7 @@ map_frame(cmd *c, mr_frame *f)
 }
 
 const cmd_tool cmd_this = {
-	.summary = "write heights over a control mesh, or what a surface looks like, as pictures",
+	.summary = "write and read maps of heights, and bake surfaces into textures",
 	.options = table,
 	.prepare = check,
 	.frame = map_frame,

@@ -6,13 +6,13 @@ static mr_v3 from;
 
 static const cmd_opt table[] = {
 	{ 'n', "neighbours", CMD_COUNT, &opts.neighbours, 0, 128, "N",
-	    "points that show the plane of one, itself among them; 0: as the noise needs", NULL },
+	    "nearest points that give a point's plane, itself included; 0: by the noise", NULL },
 	{ 'f', "from", CMD_VECTOR, &from, 0, 0, "X,Y,Z",
 	    "where the points were seen from: normals point there (default: to the column scanner, else "
 	    "outward)",
 	    NULL },
-	{ 0, "keep", CMD_FLAG, &opts.keep, 0, 0, "", "keep the normals that are there and fit", NULL },
-	{ 0, "flip", CMD_FLAG, &opts.flip, 0, 0, "", "turn all over at the end", NULL },
+	{ 0, "keep", CMD_FLAG, &opts.keep, 0, 0, "", "keep present normals that fit", NULL },
+	{ 0, "flip", CMD_FLAG, &opts.flip, 0, 0, "", "reverse all normals at the end", NULL },
 	{ 0 },
 };
 

@@ -10,8 +10,8 @@ static mr_string_set given;
 
 static const cmd_opt table[] = {
 	{ 'e', "error", CMD_SHARE, &opts.error, 1e-7, 0.1, "SHARE",
-	    "mean distance from what it was made from, of the diagonal (default 0.01%)", NULL },
-	{ 'n', "bytes", CMD_COUNT, &opts.bytes, 1, 1e15, "N", "no more bytes than that", NULL },
+	    "mean distance from its source, relative to the diagonal (default 0.01%)", NULL },
+	{ 'n', "bytes", CMD_COUNT, &opts.bytes, 1, 1e15, "N", "at most so many bytes", NULL },
 	{ 0 },
 };
 

@@ -1,4 +1,4 @@
-/* mr-pose -- say where a handle goes.  See man/mr-pose.1. */
+/* mr-pose -- move, turn and scale a handle.  See man/mr-pose.1. */
 #include "cmd.h"
 #include "edit/handles.h"
 
@@ -25,7 +25,7 @@ static const cmd_opt table[] = {
 	    "far)",
 	    set_pose },
 	{ 'F', "frames", CMD_COUNT, &motion.frames, 0, 1e6, "F",
-	    "go there in F frames behind one at rest (default 0: at once)", NULL },
+	    "go there in F frames, after one at rest (default 0: at once)", NULL },
 	{ 'S', "script", CMD_TEXT, &script_path, 0, 0, "FILE", "take a sequence of poses from FILE", NULL },
 	{ 0 },
 };
@@ -101,7 +101,7 @@ pose_frame(cmd *c, mr_frame *f)
 }
 
 const cmd_tool cmd_this = {
-	.summary = "say where a handle goes",
+	.summary = "move, turn and scale a handle",
 	.options = table,
 	.prepare = prepare,
 	.frame = pose_frame,

@@ -5,8 +5,7 @@ static mr_wrap_opts opts = MR_WRAP_DEFAULTS;
 
 static const cmd_opt table[] = {
 	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "auto|cube|volume", "how to begin", NULL },
-	{ 0, "lids", CMD_CHOICE, &opts.lids, 0, 0, "auto|all|none",
-	    "what the points leave open and is closed", NULL },
+	{ 0, "lids", CMD_CHOICE, &opts.lids, 0, 0, "auto|all|none", "openings of the points to close", NULL },
 	{ 'r', "resolution", CMD_COUNT, &opts.resolution, 0, 10000, "EDGES",
 	    "edges of the wrap, so many along a side of the bounding cube; 0: by the points", NULL },
 	{ 0, "grid", CMD_COUNT, &opts.grid, 0, 4096, "N",
@@ -16,7 +15,7 @@ static const cmd_opt table[] = {
 	{ 'n', "iterations", CMD_COUNT, &opts.iterations, 0, 1e6, "N",
 	    "of projection and smoothing; 0: as the method needs", NULL },
 	{ 0, "ignore-normals", CMD_FLAG, &opts.ignore_normals, 0, 0, "",
-	    "do not let normals, or the places of a scanner, tell sides", NULL },
+	    "ignore normals and the scanner's places", NULL },
 	{ 0, "template", CMD_FLAG, &opts.template_mesh, 0, 0, "", "wrap the mesh that is in control", NULL },
 	{ 0 },
 };

@@ -5,11 +5,11 @@ static mr_smooth_opts opts = MR_SMOOTH_DEFAULTS;
 
 static const cmd_opt table[] = {
 	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "implicit|taubin", "how to smooth", NULL },
-	{ 't', "time", CMD_REAL, &opts.time, 0, 1e9, "TIME", "in all, in squared mean edge lengths", NULL },
+	{ 't', "time", CMD_REAL, &opts.time, 0, 1e9, "TIME", "diffusion time, in squared mean edge lengths",
+	    NULL },
 	{ 'n', "passes", CMD_COUNT, &opts.passes, 0, 1e6, "N",
 	    "passes; 0: 1 of implicit, of taubin 8 for each unit of time", NULL },
-	{ 0, "plain", CMD_FLAG, &opts.plain, 0, 0, "", "smooth for the same time where the body is thin",
-	    NULL },
+	{ 0, "plain", CMD_FLAG, &opts.plain, 0, 0, "", "smooth thin parts for the same time, too", NULL },
 	{ 0 },
 };
 

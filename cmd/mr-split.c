@@ -5,11 +5,10 @@ static mr_split_opts opts;
 
 static const cmd_opt table[] = {
 	{ 'd', "distance", CMD_LENGTH, CMD_LENGTH_OF(mr_split_opts, opts, distance), 0, 1e300, "DISTANCE",
-	    "points no farther apart are connected; 0: four times as far as they are from their neighbours",
-	    NULL },
+	    "connect points up to this distance; 0: four times the distance of neighbours", NULL },
 	{ 'n', "least", CMD_COUNT, &opts.least, 0, 4294967295, "N",
-	    "leave out parts of fewer vertices; 0: of points those of a hundredth of the largest part's, of "
-	    "a mesh vertices without a face",
+	    "leave out parts of fewer vertices; 0: of points below a hundredth of the largest part, of a "
+	    "mesh isolated vertices",
 	    NULL },
 	{ 0 },
 };

@@ -10,7 +10,7 @@ static const cmd_opt table[] = {
 	{ 0, "crease", CMD_REAL, &opts.crease, 0, 180, "DEGREES",
 	    "keep edges whose faces meet at more; 180: none", NULL },
 	{ 0, "longest", CMD_LENGTH, CMD_LENGTH_OF(mr_subdivide_opts, opts, longest), 0, 1e300, "LENGTH",
-	    "instead, divide edges that are longer, the surface as it is; 0: not", NULL },
+	    "instead, divide longer edges without moving the surface; 0: no", NULL },
 	{ 0 },
 };
 

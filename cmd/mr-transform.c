@@ -53,7 +53,7 @@ transform_frame(cmd *c, mr_frame *f)
 }
 
 const cmd_tool cmd_this = {
-	.summary = "move, turn and scale all that a frame holds",
+	.summary = "move, turn and scale a whole frame",
 	.options = table,
 	.prepare = prepare,
 	.frame = transform_frame,

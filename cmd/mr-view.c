@@ -13,11 +13,12 @@ static const cmd_opt table[] = {
 	{ 0, "materials", CMD_TEXT, &page.pictures.materials, 0, 0, "DIR", "folder of files of materials",
 	    NULL },
 	{ 0, "pack", CMD_SHARE, &page.pack, 1e-7, 0.1, "SHARE",
-	    "pack displaced surfaces: mean distance from what they were made from, of the diagonal", NULL },
+	    "pack displaced surfaces: mean distance from their source, relative to the diagonal", NULL },
 	{ 0, "title", CMD_TEXT, &page.title, 0, 0, "TEXT", "of the page (default: file and frame)", NULL },
 	{ 0, "caption", CMD_TEXT, &page.caption, 0, 0, "TEXT", "a sentence below the title", NULL },
 	{ 0, "name", CMD_TEXT, &name, 0, 0, "NAME", "of the stream, in lines for the shell", NULL },
-	{ 0, "beside", CMD_FLAG, &beside, 0, 0, NULL, "models but the first in files beside the page", NULL },
+	{ 0, "beside", CMD_FLAG, &beside, 0, 0, NULL, "models after the first in files beside the page",
+	    NULL },
 	{ 0 },
 };
 

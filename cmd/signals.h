@@ -6,7 +6,7 @@
 #include "base/ctx.h"
 
 /* For the whole life of the command `name`: a write beyond the limit of a file's size fails instead of ending
- * the process, and where a mapped file is shorter than it was the command says so and exits 1. */
+ * the process, and a mapped file that was cut off is an error with exit 1. */
 void signals_begin(const char *name);
 
 /* mr_ctx.unfinished: from now on, or no longer, whatever signal ends the process removes the file first. */

@@ -29,8 +29,8 @@ mr_file_bytes_end(mr_file_bytes *b, mr_status status)
 	return status;
 }
 
-/* Makes room for more, by doubling; fails where memory cannot be had, or is not there for it and for a model
- * of the same size: a pipe, and what a few bytes inflate to, may never end. */
+/* Makes room for more, by doubling; fails if memory is missing for it and for a model of the same size: a
+ * pipe, or inflated data, may never end. */
 static mr_status
 widen(mr_ctx *ctx, unsigned char **memory, size_t *room, size_t least)
 {

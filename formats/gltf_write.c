@@ -1,5 +1,5 @@
-/* GLB, written: a node with a mesh for each object of each layer, a primitive for each of its materials, and
- * poses as morph targets that an animation shows one after the other.  All of a layer share its vertices. */
+/* GLB, written: a node with a mesh for each object of each layer, a primitive for each of its materials.
+ * Poses are morph targets of an animation.  All of a layer share its vertices. */
 #include "base/text.h"
 #include "formats/filename.h"
 #include "formats/gltf_meshopt.h"

@@ -1,4 +1,4 @@
-/* Points in columns: XYZ, PTS, PWN, and tables with a line of names.  man/mr-import.1 says how columns
+/* Points in columns: XYZ, PTS, PWN, and tables with a line of names.  man/mr-formats.5 says how columns
  * without names are recognised.  A first line with one whole number counts the points. */
 #include "formats/format.h"
 

@@ -15,13 +15,13 @@
  *
  * Status.  A function that can fail returns an mr_status: negative where it failed, with a sentence in
  * mr_error; its outputs are then unchanged.  The library never prints and never exits.
- * Memory.  All that a function gives is the context's, until the context is deleted or a mark is released
- * that was taken before: callers free nothing else, but for what has a _free or _delete of its own, which
- * accepts NULL.  What is put into a frame is borrowed by it.
+ * Memory.  All that a function gives is the context's, until the context is deleted or an earlier mark is
+ * released.  Callers free nothing, except objects with a _free or _delete of their own, which accepts NULL.
+ * A frame borrows its columns.
  * Threads.  One context serves one thread at a time; inside, functions use as many threads as the context
  * has, and give the same bytes for any number.
- * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An mr_..._result
- * may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
+ * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; impossible values are MR_EUSAGE.  An
+ * mr_..._result may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
  */
 #ifndef MR_H
 #define MR_H
@@ -974,8 +974,8 @@ typedef struct mr_bake_opts {
 
 #define MR_BAKE_DEFAULTS MR_DEFAULTS(NULL, 2048, 4, NULL, ".")
 
-/* Writes NAME-color.png and NAME-normal.png, what the surface or cloud of frame `from` looks like, and
- * NAME.mtl, which names them, and gives the layer a material, normals and texture coordinates for them. */
+/* Bakes the surface or cloud of frame `from` into NAME-color.png and NAME-normal.png, and writes NAME.mtl,
+ * which names them.  Gives the layer a material, normals and texture coordinates for them. */
 MR_API mr_status mr_bake(mr_ctx *ctx, mr_frame *f, mr_frame *from, const char *name, const mr_bake_opts *opts,
     mr_map_result *result) MR_WARN_UNUSED;
 

@@ -105,8 +105,8 @@ struct mr_entry {
 void mr_entry_begin(mr_ctx *ctx, mr_entry *entry);
 void mr_entry_end(mr_entry *entry);
 
-/* The first statement of a public function, or of one whose caller has something to close: where memory runs
- * out below it, it returns MR_EMEM, the sentence set, its memory released, its outputs as they were. */
+/* The first statement of a public function, or of one whose caller has something to close: If memory runs out
+ * below it, it returns MR_EMEM, with the sentence set, its memory released and its outputs unchanged. */
 #define MR_ENTER(context)                                                                                    \
 	mr_entry entry_ __attribute__((cleanup(mr_entry_end)));                                              \
 	mr_entry_begin((context), &entry_);                                                                  \

@@ -1,5 +1,5 @@
-/* parallel.h -- loops over several threads whose result does not depend on how many: a body writes only what
- * belongs to its own indices, and sums are taken per piece and added in order. */
+/* parallel.h -- loops over several threads whose result does not depend on their number: a body writes only
+ * to its own indices, and sums are taken per piece and added in order. */
 #ifndef MR_BASE_PARALLEL_H
 #define MR_BASE_PARALLEL_H
 
@@ -13,7 +13,7 @@ typedef void (*mr_body)(void *arg, size_t begin, size_t end);
 void mr_parallel(const mr_ctx *ctx, size_t count, size_t grain, mr_body body, void *arg);
 
 /* The sum of `term(arg, i)` over [0, count): pieces of 4096 terms are summed in order, then the pieces in
- * order, so it is the same for every number of threads. */
+ * order, for any number of threads. */
 double mr_parallel_sum(const mr_ctx *ctx, size_t count, double (*term)(void *arg, size_t i), void *arg);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 /* Whether a read (POLLIN) or write (POLLOUT) that failed is to be tried again: it was interrupted, or the
- * descriptor does not block, as who shares it may have asked for, and is ready now. */
+ * descriptor, made non-blocking by another process, is ready now. */
 static inline bool
 mr_retry(int fd, short event)
 {

@@ -24,9 +24,9 @@ void mr_correspond_soon(const mr_correspondence *c, const mr_mesh *base, size_t 
  * its foot within, or the nearest; face MR_NONE without any. */
 mr_place mr_correspond_near(const mr_correspondence *c, const mr_mesh *base, size_t i);
 
-/* Places for the vertices that do not stand yet: the nearest on the lifted base, met by a walk from the base
- * vertex near it or from where a neighbour stands, so that neighbours stand side by side, and no vertex on
- * another sheet, however close that is.  face, bary: the caller's; those that stand have theirs. */
+/* Places for the other vertices: the nearest on the lifted base, met by a walk from the base vertex near it
+ * or from a neighbour's place.  So no vertex lands on another sheet, however close.  face, bary: the
+ * caller's; those that stand have theirs. */
 void
 mr_correspond_rest(mr_ctx *ctx, const mr_correspondence *c, const bool *stands, uint32_t *face, mr_v3 *bary);
 

@@ -2,7 +2,7 @@
  * system finds the surface whose gradients come nearest.  The handles' maps R S (polar decomposition) are
  * interpolated by weights, the system's response to 1 (Zayer, Roessl, Karni, Seidel 2005; Lipman, Sorkine,
  * Levin, Cohen-Or 2005).  Gradients that are only turned shrink a tube of radius r, twisted by a a unit, to r
- * / (1 + r^2 a^2): so each face takes the gradient of A (p - c), c the centroid of the section through it, a
+ * / (1 + r^2 a^2).  So each face takes the gradient of A (p - c), c the centroid of the section through it, a
  * piece of the weight's level set, and twists are exact.  As rigid as possible (Sorkine, Alexa 2007) is a
  * shell: what encloses a volume keeps nine tenths of it.  Private to this room. */
 #ifndef MR_EDIT_DEFORM_ENERGY_H

@@ -1,4 +1,4 @@
-/* Encodes each vertex by its foot on the base, found by a walk from where the source map has it (Kobbelt,
+/* Encodes each vertex by its foot on the base, found by a walk from its place by the source map (Kobbelt,
  * Vorsatz, Seidel 1999: Multiresolution hierarchies on unstructured triangle meshes), and decodes. */
 #include "edit/detail.h"
 

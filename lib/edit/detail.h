@@ -1,5 +1,5 @@
-/* detail.h -- the detail of a mesh over its base, as displacements along the base's Phong normals: on the
- * same base they give every vertex back to within rounding, a deformed one carries them along. */
+/* detail.h -- the detail of a mesh over its base, as displacements along the base's Phong normals.  On the
+ * same base they give every vertex back to within rounding. */
 #ifndef MR_EDIT_DETAIL_H
 #define MR_EDIT_DETAIL_H
 

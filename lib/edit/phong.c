@@ -126,8 +126,8 @@ inside(place at, double slack)
 	return at.u >= -slack && at.v >= -slack && at.u + at.v <= 1 + slack;
 }
 
-/* Writes the foot where what the decoder will compute from it is p, to the tolerance, and it is not beside
- * the face: a last step on one that is all but a line goes anywhere. */
+/* Writes the foot if the decoder will compute p from it, to the tolerance, and it is on the face: the last
+ * step on a needle goes anywhere. */
 static bool
 settle(const mr_foot_ground *g, mr_v3 p, uint32_t face, const field *f, place at, double limit, mr_foot *foot)
 {

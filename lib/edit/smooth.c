@@ -60,7 +60,7 @@ study_vertices(smoothing *s)
 }
 
 /* No vertex is smoothed for longer than a share of its squared thickness, so that no body passes through
- * itself: with this one a rod keeps 92 % of its volume and a ball 79 %. */
+ * itself.  A rod keeps 92 % of its volume, a ball 79 %. */
 static void
 choose_times(mr_ctx *ctx, smoothing *s, bool plain)
 {
@@ -154,8 +154,8 @@ implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
  * squared edges goes 4 t of it. */
 static const double FURTHEST = 0.6, SHARE = 4;
 
-/* A vertex goes forth by lambda, at the pace of its area or as far as it may, and back by mu, 1 / lambda + 1
- * / mu = pass band, which is the same for all: else the band of slow ones would hold their noise. */
+/* A vertex goes forth by lambda, at the pace of its area or as far as it may, and back by mu.  1 / lambda + 1
+ * / mu = pass band, the same for all: else the band of slow ones would hold their noise. */
 static void
 paces(const smoothing *s, double *forth, double *back)
 {

@@ -21,9 +21,8 @@ size_t mr_fit_crossing(const mr_fit_guard *guard);
 /*
  * Moves x, where the guard saw it last, by z, and the surface with it.  If that would close an edge of the
  * control mesh beyond 170 degrees that was less so, or let a face of it pass through another, z becomes more
- * like the motions around, so that protruding parts move as a whole; then vertices that still would go half
- * as far, and so on; at last it stays.  So do the corners of faces whose surface would close beyond 150
- * degrees or pass through itself.
+ * like the motions around.  Then vertices that still would go half as far, and so on; at last it stays.  So
+ * do the corners of faces whose surface would close beyond 150 degrees or pass through itself.
  */
 mr_status mr_fit_step(mr_ctx *ctx, mr_fit_guard *guard, mr_v3 *x, mr_v3 *z);
 

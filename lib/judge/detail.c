@@ -76,8 +76,8 @@ turn_at(const mr_ground *g, uint32_t vertex)
 	return mr_mat3_multiply_transposed(&now, &then);
 }
 
-/* How far the middle of an edge is from the arc that base makes of it: the angle by which base has turned at
- * one end against the other, times an eighth of the length. */
+/* How far the middle of an edge is from its arc on base: the angle between base's turns at both ends, times
+ * an eighth of the length. */
 static double
 off_arc(const mr_motion *m, const mr_ground *g, uint32_t h)
 {

@@ -150,8 +150,8 @@ before_sheet(const mr_mesh *m, mr_float4 normal, size_t a, size_t b)
 	return mr_dot(vector(normal), mr_sub(m->p[b], m->p[a]));
 }
 
-/* Whether b was on one side of the sheet that a is on, and is on the other: on a sheet that faces the other
- * way, or one that was clearly apart. */
+/* Whether b has changed sides of a's sheet: b is on a sheet that faces the other way, or was clearly
+ * apart. */
 static bool
 came_by(const crowd *c, size_t a, size_t b)
 {

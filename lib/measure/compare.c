@@ -1,7 +1,7 @@
 /* Distances from points of one surface or cloud to the nearest point of the other.  Means are integrals by
  * the midpoint rule on a subdivision of the faces.  The greatest distance lies between max, which is
- * attained, and max_bound, found by branch and bound: no point of a triangle is farther than the farthest of
- * its corners is from any one face (Tang, Lee, Kim 2009), nor than the centroid's distance and its radius. */
+ * attained, and max_bound, found by branch and bound.  No point of a triangle is farther than its farthest
+ * corner is from any one face (Tang, Lee, Kim 2009), nor than the centroid's distance and its radius. */
 #include "mesh/mesh.h"
 
 #include "base/options.h"

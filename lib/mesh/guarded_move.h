@@ -22,8 +22,8 @@ typedef struct mr_guard {
  * bit by bit `from` where they stay. */
 mr_status mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to);
 
-/* Moves the vertices of m to `to`, but those that would turn a face by more than 60 degrees, close it against
- * a neighbour beyond MR_NEAR_FOLD, or leave it of a worse shape (mesh/dynmesh.h) below `needle`. */
+/* Moves the vertices of m to `to`, unless this would turn a face by more than 60 degrees, close it against a
+ * neighbour beyond MR_NEAR_FOLD, or worsen its shape (mesh/dynmesh.h) below `needle`. */
 mr_status mr_move_unfolded(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double needle, mr_v3 *to);
 
 #endif

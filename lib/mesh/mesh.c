@@ -234,8 +234,8 @@ mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m)
 	return m->nf ? sqrt(4 * mr_mesh_area(ctx, m) / (sqrt(3) * (double)m->nf)) : 0;
 }
 
-/* The angles of points (x, y), y > 0, from the x axis, within a few units in the last place: an eighth of a
- * turn at a time, there by a polynomial that is nearest to atan. */
+/* The angles of points (x, y), y > 0, from the x axis, within a few units in the last place: by a minimax
+ * polynomial of atan for each eighth of a turn. */
 MR_VECTORS static void
 find_angles(const double *y, const double *x, size_t n, double *angle)
 {

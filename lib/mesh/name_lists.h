@@ -4,7 +4,7 @@
 
 #include "mesh/layers.h"
 
-/* Where the lines of a text begin, count + 1, each after a newline; in the arena, over the text. */
+/* The starts of a text's lines, count + 1, each after a newline; in the arena, over the text. */
 void mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count);
 
 enum { MR_NAMINGS = 3 };

@@ -1,5 +1,5 @@
-/* validate.h -- what must hold of the layers of a frame: columns decode, have the shape of convention, as
- * many rows as their layer, finite numbers, indices and places in range. */
+/* validate.h -- the laws of a frame's layers: columns decode, have the shape of convention, as many rows as
+ * their layer, finite numbers, indices and places in range. */
 #ifndef MR_MESH_VALIDATE_H
 #define MR_MESH_VALIDATE_H
 

@@ -321,8 +321,8 @@ mend_all(mender *w)
 }
 
 /*
- * Few faces are tried: real models have less than one flawed in 400, or a few, while the tip of a spike,
- * thinner than its edges all the way, has half of all flawed and takes minutes, for nothing.
+ * Few faces are tried: real models have less than one flawed in 400.  The tip of a spike, thinner than its
+ * edges all the way, has half of all flawed and would take minutes, in vain.
  */
 void
 mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)

@@ -146,8 +146,8 @@ tidy(remesher *r)
  * glide shears the rows it passes more than the next relaxation can undo.
  *
  * The first round bisects edges that are much too long step by step, all to twice the length before any to
- * the length, and dense parts are thinned in between: bisected all at once a sliver leaves slivers like it,
- * four times as many for edges half as long, whatever its area.
+ * the length, and dense parts are thinned in between. Bisected all at once, a sliver leaves slivers like it,
+ * four times as many for edges half as long.
  */
 static mr_status
 one_round(remesher *r, bool first)

@@ -8,10 +8,10 @@
 
 /*
  * The length of an edge at each vertex whose middle is `error` away from a surface of the vertex's largest
- * absolute curvature, within [shortest, longest] and growing by at most half of the way along edges.
- * Curvatures follow Meyer et al. 2003.  On the curves, the boundary among them, the curve's own counts, since
- * across it the surface ends or has an edge that is kept.  d: still a copy of m.  length: nv, the caller's,
- * in units of the model.
+ * absolute curvature.  Within [shortest, longest], and growing by at most half of the way along edges.
+ * Curvatures follow Meyer et al. 2003.  On the curves, the boundary among them, the curve's own counts,
+ * since across it the surface ends or has an edge that is kept.  d: still a copy of m.  length: nv, the
+ * caller's, in units of the model.
  */
 void mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
     double shortest, double longest, double *length);

@@ -320,8 +320,8 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, 
 	return true;
 }
 
-/* How long an edge may be, by how many times its target, that a merge with the limit `longest2` leaves at v:
- * no longer than v's own target allows, or the next round splits what this one merged. */
+/* The longest edge, in targets, that a merge with the limit `longest2` may leave at v: no longer than v's own
+ * target allows, or the next round splits it again. */
 static double
 longest_at(const resampler *r, uint32_t v, double slack, double longest2)
 {
@@ -390,8 +390,8 @@ makes_corner(const mr_dyn *d, uint32_t v, uint32_t u, mr_v3 p)
 }
 
 /*
- * True where merging a into its neighbour b along a curve, at p, makes the curve turn as only corners do: a
- * loop that is smaller than an edge would be crushed.
+ * True where merging a into its neighbour b along a curve, at p, makes the curve turn like a corner: it would
+ * crush a loop smaller than an edge.
  */
 static bool
 cuts_curve(const mr_dyn *d, uint32_t a, uint32_t b, mr_v3 p)

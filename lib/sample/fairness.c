@@ -92,8 +92,8 @@ typedef struct validation {
 	double *image;
 } validation;
 
-/* Takes blocks of faces at even distances, each of some roots of the domain: of a million vertices, all would
- * take as long as the rest of the fit, for a factor whose score differs by less than 1 %. */
+/* Takes blocks of faces at even distances, each of some roots of the domain.  All blocks of a million
+ * vertices would take as long as the rest of the fit, for less than 1 % of the score. */
 static void
 take_part(validation *x, size_t nf)
 {

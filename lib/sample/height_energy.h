@@ -46,8 +46,8 @@ mr_status mr_heights_minimise_some(
 mr_status mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t *filled);
 
 /*
- * Takes back the heights that stick out: that differ from the median of the known ones around them by more
- * than an edge and than 6 times the median deviation from it.  *dropped: how many of `known` were cleared.
+ * Takes back protruding heights: they differ from the median of the known heights around by more than an edge
+ * and by more than 6 median deviations.  *dropped: how many of `known` were cleared.
  */
 void mr_heights_drop_spikes(
     mr_ctx *ctx, const mr_heights *e, const mr_v3 *p, const double *h, bool *known, size_t *dropped);

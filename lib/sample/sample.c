@@ -151,8 +151,8 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, 
 	return mr_heights_fill(ctx, e, hit, height, &r->filled);
 }
 
-/* If points fit them later, the points' gaps decide whether heights are missing: at the edges of a clean gear
- * many vertices find no point, and yet the surface is within 2 spacings all over. */
+/* If points fit them later, the points' gaps decide whether heights are missing.  At the edges of a clean
+ * gear many vertices find no point, but the surface is within 2 spacings. */
 static void
 report_filled(mr_ctx *ctx, const mr_domain *d, bool fitted, const mr_sample_result *r)
 {

@@ -13,9 +13,9 @@ static const double FLAT = 1e-5;
 static const double LENGTH = 2e-3;
 enum { STEPS = 3 }; /* of minimization: enough for a corner of a cube to come out to rounding */
 /*
- * What a control mesh pays for valences far from 6: a share of the cost for the squares of the merged
- * vertex's faces beyond 7 and of the missing edges, below 5, of the vertices across.  At 0.05 nearly all
- * valences are 4 to 9, and the mean distance grows by 1 to 3 %.
+ * A control mesh pays for valences far from 6: a share of the cost for the squares of the merged vertex's
+ * faces beyond 7 and of missing edges, below 5, of the vertices across.  At 0.05 nearly all valences are 4 to
+ * 9, and the mean distance grows by 1 to 3 %.
  */
 static const double VALENCE = 0.05;
 /* Shapes, squared, that count as one: side by side on a rod slivers are as thin as each other, but for that.

@@ -50,8 +50,8 @@ void mr_merge_begin(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *
 bool mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m);
 
 /*
- * True where the merge turns no face by 78 degrees or more, leaves none whose shape (mr_dyn_shape) is below
- * `needle` and below the worst that was there, and makes no fold that was not there.
+ * True where the merge turns no face by 78 degrees or more, makes no new fold, and leaves no face whose shape
+ * (mr_dyn_shape) is below `needle` and below the worst before.
  */
 bool mr_merge_is_sound(const mr_dyn *d, const mr_merge *m, double needle);
 

@@ -14,9 +14,9 @@ static const double LAST_NEEDLE = 0.01;
 static const uint16_t UNKNOWN = UINT16_MAX; /* no bucket: the edge has no merge */
 
 /*
- * Edges wait in the queue by what their merge cost when that was last computed.  A merge makes those around
- * it dearer, mostly, so an old cost is a lower bound: it is computed again when the edge comes up, and where
- * it has grown the edge goes back.
+ * Edges wait in the queue by what their merge cost when that was last computed.  A merge mostly makes those
+ * around it dearer, so an old cost is a lower bound.  It is computed again when the edge comes up; if it has
+ * grown the edge goes back.
  */
 typedef struct simplifier {
 	mr_ctx *ctx;

@@ -47,9 +47,8 @@ size_t mr_simplify_most_faces_for(size_t n);
 size_t mr_simplify_fine_faces_for(size_t n);
 
 /*
- * The weights that make a control mesh dense where points are: areas of the surface m, near the points,
- * count by how densely they lie there, so that a point counts as much as any other.  weight: m->nv, the
- * caller's.
+ * Weights that make a control mesh dense where points are dense: areas of the surface m count by the density
+ * of points near them, so that all points count alike.  weight: m->nv, the caller's.
  */
 mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, double *weight);
 

@@ -83,8 +83,8 @@ lacking(const DMUMPS_STRUC_C *m, double memory)
 }
 
 /*
- * Its estimate of the space it needs may be too low by what the pieces are moved around at run time: each
- * time it fails for that it gets twice as much in reserve.
+ * Its estimate of memory may be too low, since pieces move at run time: each time it fails for that, the
+ * reserve is doubled.
  */
 static void
 factorize(DMUMPS_STRUC_C *m)

@@ -1,12 +1,11 @@
 /*
  * bvh.h -- a bounding volume hierarchy over the triangles of a mesh: nearest point, first hit of a ray.
  *
- * Contract: exact (no tolerance, every triangle that could win is looked at), in
- * doubles, and deterministic: of several nearest triangles the one with the
- * lowest index is returned, however many threads built the tree.  The tree lives
- * in the arena; the mesh must outlive it.  Queries only read: any number of
- * threads may ask at once.  From farther off than 2^36 sizes of the mesh a nearest point is farther than the
- * nearest by 2^-35 of its distance at most.
+ * Contract: exact, in doubles, without tolerance, and deterministic. Of several nearest triangles the one
+ * with the lowest index is returned, for any number of threads that built the tree.  The tree lives in the
+ * arena; the mesh must outlive it.  Queries only read: any number of threads may ask at once.  From farther
+ * off than 2^36 sizes of the mesh a nearest point is farther than the nearest by 2^-35 of its distance at
+ * most.
  */
 #ifndef MR_SPACE_BVH_H
 #define MR_SPACE_BVH_H

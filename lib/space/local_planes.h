@@ -19,9 +19,8 @@ typedef struct mr_planes {
  * Planes of least squares of each point's k nearest (itself among them), k >= 3, and its `links` < k
  * nearest, in the arena.  The points must be distinct.
  *
- * around: the plane is not of the k nearest but of at most eight directions, to the nearest that lie apart
- * as seen from the point: so rows of points, near ones in a row and the next row far, do not tilt it.  For
- * points without noise.
+ * around: the plane is of the nearest points in at most eight directions, not of the k nearest, so that rows
+ * of points far apart do not tilt it.  For points without noise.
  */
 mr_status mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, bool around,
     mr_planes *out) MR_WARN_UNUSED;

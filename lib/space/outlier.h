@@ -11,8 +11,8 @@
 /*
  * Finds the outliers of a sampling (s->n > 0) that are far from the surface too; off: the distance of each of
  * the points from it.  They are farther than 2.5 standard deviations, estimated from the median of
- * `off`, than `least`, and than their spacing: sparse points that the surface is as near to as others are
- * none.
+ * `off`, than `least`, and than their spacing: sparse points as near to the surface as others are no
+ * outliers.
  *
  * outlier: s->n, the caller's.  *count: how many, of which it warns.
  */

@@ -28,8 +28,8 @@ static const double NOISY = 0.06, SURELY_NOISY = 0.12;
 static const double ALONE = 2.5, SPARSE = 2.5, UNEVEN = 0.05, STREWN = 0.1;
 enum { ROUNDS = 3 };
 
-/* Few points far from all others may make a plane: outliers are, too, those so many usual spacings from their
- * neighbours and so many times as far from the middle as nearly all are. */
+/* Few points far from all others may make a plane.  So points are outliers, too, if they are so many usual
+ * spacings from their neighbours and so many times as far from the middle as nearly all. */
 static const double APART = 6, BEYOND = 2, NEARLY = 0.95;
 
 /* Fewer places have no outliers. */

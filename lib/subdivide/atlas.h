@@ -2,11 +2,10 @@
  * atlas.h -- the triangles of a mesh laid out in a picture that has a texel for each vertex of their
  * subdivision.
  *
- * A triangle is a right one there, its first corner at the right angle, its second to the right or, as of
- * every other one, which is turned by 180 degrees, to the left.  Two of them fill a square.  So the vertices
- * that level n of a subdivision has on the triangle, at multiples of 2^-n in its barycentric coordinates, are
- * at the centres of texels: their values are not resampled.  Texels around a triangle, the gutter,
- * are its own, too.
+ * A triangle is a right one there, its first corner at the right angle, its second to the right. Every other
+ * one is turned by 180 degrees.  Two of them fill a square.  So the vertices that level n of a subdivision
+ * has on the triangle, at multiples of 2^-n in its barycentric coordinates, are at the centres of texels:
+ * their values are not resampled.  Texels around a triangle, the gutter, are its own, too.
  */
 #ifndef MR_SUBDIVIDE_ATLAS_H
 #define MR_SUBDIVIDE_ATLAS_H

@@ -10,8 +10,8 @@
 enum { MR_LONGEST_MOST = 100000000 };
 
 /*
- * Divides every edge that is longer than `length`, evenly and the same from both sides, until none is (to a
- * share of 1e-9): the new vertices lie on the old triangles.  Any mesh will do.
+ * Divides every edge that is longer than `length` (to a share of 1e-9), evenly and the same from both sides.
+ * New vertices lie on the old triangles.  Any mesh will do.
  *
  * r: in the arena; r->m is m, r->level NULL.  MR_ERANGE where there may be more than MR_LONGEST_MOST
  * triangles, before any work, with a length that makes fewer.

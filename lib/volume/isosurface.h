@@ -2,7 +2,7 @@
  * isosurface.h -- the surface where a function on a grid is zero, by marching cubes (Lorensen, Cline 1987)
  * whose every case is consistent with its neighbours'.
  *
- * Contract: the surface is always a closed, oriented manifold, whatever the values: inside nodes are
+ * Contract: the surface is always a closed, oriented manifold. Inside nodes are
  * connected over the edges of the grid, outside nodes over the diagonals of its faces too.
  */
 #ifndef MR_VOLUME_ISOSURFACE_H

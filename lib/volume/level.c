@@ -1,5 +1,5 @@
 /* The level of the surface: the wanted one if its neighbours have the same Euler number, else of the longest
- * run of levels that do: what stays is of the body (persistence: Edelsbrunner, Letscher, Zomorodian 2002). */
+ * run of levels that do (persistence: Edelsbrunner, Letscher, Zomorodian 2002). */
 #include "mesh/clip.h"
 #include "space/connected.h"
 #include "volume/parts.h"

@@ -92,7 +92,7 @@ mr_volume_samples(
 			    mr_fail(ctx, MR_ERANGE,
 				"%zu points lie so far apart, for how near their neighbours are, that the "
 				"grid "
-				"tells %zu of them",
+				"resolves only %zu of them",
 				n, s->n));
 		MR_TRY(check(ctx, s, n));
 	}

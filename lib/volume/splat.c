@@ -3,8 +3,8 @@
 
 #include "base/parallel.h"
 
-/* Layers of cells that one thread works on: what a point spreads reaches one layer of nodes below its cell
- * and two above, so slabs of four and every other slab at once never meet. */
+/* Layers of cells that one thread works on.  A point reaches one layer of nodes below its cell and two above,
+ * so every other slab of four at once never meets another. */
 enum { SLAB = 4 };
 
 /* The position of p in the grid: its cell, and how far into it. */

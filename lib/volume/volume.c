@@ -1,4 +1,4 @@
-/* The volume of a cloud without normals: a soft flood, absorbed by the points, finds the side of exposed
+/* The volume of a cloud without normals.  A soft flood, absorbed by the points, finds the side of exposed
  * points (Jeong, Kim 2001), alike planes pass it on, and the indicator (Kazhdan et al. 2006) corrects hidden
  * ones. */
 #include "volume/volume.h"

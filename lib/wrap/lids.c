@@ -25,8 +25,8 @@ static const double DOUBT = 1.4;
  * 0.47 to 1.14 of bodies, more where flat faces are bare or an open sheet is wrapped from both sides. */
 static const double FLICKERING = 1.2, SEEN = 2;
 
-/* Spacings that the line goes back from where support ends, which other rims are nearer to points than: it is
- * then within 1.3 spacings of the outermost points, and closes over the gaps between them. */
+/* Spacings that the line goes back from the end of support: it is then within 1.3 spacings of the outermost
+ * points, and closes over the gaps between them. */
 static const double BACK = 1.25, RIM = 1;
 
 enum { SMOOTHINGS = 3, SETTLES = 4, POINTS_PER_EDGE = 4 };

@@ -350,7 +350,7 @@ make_lattice(mr_ctx *ctx, const mr_wrap_cloud *flat, double edge, mr_mesh *out)
 
 	if (along * across > (double)(most < NODES_LEAST ? NODES_LEAST : most))
 		return mr_fail(ctx, MR_EMESH,
-		    "the points lie so far apart that a lattice of %.0f x %.0f tells them", along, across);
+		    "the points lie so far apart that they need a lattice of %.0f x %.0f", along, across);
 	p = MR_NEW(ctx, w * h, mr_v3);
 	next = t = MR_NEW(ctx, 2 * (w - 1) * (h - 1), mr_tri);
 	for (size_t y = 0; y < h; y++)

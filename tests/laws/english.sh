@@ -6,17 +6,18 @@ import glob, re, sys
 
 # pattern or rule: the greatest count
 LEVELS = {
-    r'\b(that|those|these) of\b': 45,
-    r'\bwhat (is|it|they)\b': 50,
-    r'\bbehind\b': 12,
-    r'\b(told|tells?)\b': 12,
+    r'\b(that|those|these) of\b': 20,
+    r'\bwhat (is|it|they)\b': 30,
+    r'\bbehind\b': 5,
+    r'\b(told|tells?)\b': 9,
     r'\b(is|are) had\b': 0,
-    'sentence begins with Of, What, Where or That which': 40,
-    'sentence of a comment over 30 words': 135,
-    'sentence of a page over 30 words': 40,
-    'paragraph of a page over six lines': 15,
+    'sentence begins with Of, What, Where or That which': 30,
+    'sentence of a comment over 30 words': 95,
+    'sentence of a page over 30 words': 22,
+    'paragraph of a page over six lines': 9,
 }
 BEGINS = re.compile(r'(?:^|[.:;!?]\s+)(?:Of|What|Where|That which)\b')
+SKIPPED = ('.Dd', '.Dt', '.Os', '.\\"', '|', '![', '#')
 found = {rule: [] for rule in LEVELS}
 
 
@@ -59,13 +60,14 @@ def page(name):
         elif line.startswith('.Sh'):
             flush()
             section = line[4:]
-        elif skip or section in ('SYNOPSIS', 'SEE ALSO') or line.startswith(('.Dd', '.Dt', '.Os', '.\\"', '|', '![', '#')):
+        elif skip or section in ('SYNOPSIS', 'SEE ALSO') or line.startswith(SKIPPED):
             flush()
         elif not line or re.match(r'\.(Ss|Pp|It|Bl|El)\b', line):
             flush()
             if line.startswith('.It') and ' Ta ' in line:
                 continue
-            part += [word for word in line.split()[1:] if line.startswith('.It') and not re.match(r'[A-Z][a-z]$', word)]
+            if line.startswith('.It'):
+                part += [word for word in line.split()[1:] if not re.match(r'[A-Z][a-z]$', word)]
         elif line.startswith('- '):
             flush()
             part.append(line[2:])
