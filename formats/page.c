@@ -372,7 +372,7 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const displaced *d)
 	return MR_OK;
 }
 
-/* What mr-decode would refuse is refused here: the page trusts its numbers. */
+/* Refuses what mr-decode would refuse: the page trusts its numbers. */
 static mr_status
 check_posing(mr_ctx *ctx, mr_frame *f)
 {
@@ -435,7 +435,7 @@ take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, const displaced *d,
 	return d->packed ? put_packed(ctx, from, pack, to, notes) : MR_OK;
 }
 
-/* What the surfaces that are shown wear, and the columns that place it. */
+/* The pictures on the surfaces shown, and the columns that place them. */
 static mr_status
 wear_pictures(mr_ctx *ctx, mr_frame *f, mr_page_pictures *pictures, bool *shown, mr_text *notes)
 {
@@ -462,7 +462,7 @@ note_line(mr_text *notes, const char *what, const char *text)
 	mr_text_add(notes, "\n");
 }
 
-/* What the page says of all its frames, and which file (without folder and suffix) they are from. */
+/* The text of the page about all its frames, and which file (without folder and suffix) they are from. */
 static mr_text
 begin_notes(mr_ctx *ctx, const mr_page *page)
 {

@@ -63,7 +63,7 @@ strip_jpeg(const unsigned char *p, size_t n, unsigned char *out)
 	return copy(out, used, p + at, n - at);
 }
 
-/* What a browser could not decode is refused here. */
+/* Refuses pictures that a browser could not decode. */
 static mr_status
 check_picture(mr_ctx *ctx, const mr_file_bytes *b)
 {

@@ -6,7 +6,7 @@
  *	free 100-104 106-8000
  *	handle 1 8001                               a region may have several lines
  *
- * What follows a # is left out.
+ * Text after a # is left out.
  */
 #ifndef MR_EDIT_SELECTION_FILE_H
 #define MR_EDIT_SELECTION_FILE_H

@@ -120,7 +120,7 @@ rows_of_all(const joined *j)
 	return n;
 }
 
-/* What the indices of the frames so far have come to. */
+/* The rows and names of the frames so far, by which indices of the next are shifted. */
 typedef struct following {
 	uint64_t rows; /* of what they number: vertices, faces or polygons */
 	mr_name_table names;
@@ -156,7 +156,7 @@ follow_rows(mr_ctx *ctx, const joined *j, uint32_t *x, size_t n, size_t more, fo
 	return MR_OK;
 }
 
-/* What the indices of frame i become. */
+/* Shifts or renumbers the indices of frame i. */
 static mr_status
 follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, following *w)
 {
@@ -172,7 +172,7 @@ follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, following 
 	return strcmp(j->name, "polygon") ? MR_OK : follow_rows(ctx, j, x, n, n, w);
 }
 
-/* What stands for n rows that a frame lacks. */
+/* Values for n rows of a frame without the column. */
 static void
 stand_in(const joined *j, void *x, size_t n)
 {
@@ -298,7 +298,7 @@ put_at_corners(mr_ctx *ctx, mr_frame *f, const char *layer)
 	return mr_layer_put(ctx, f, layer, "corner_texcoord", to, nf);
 }
 
-/* Where one frame has texture coordinates of corners, all have them there. */
+/* Moves texture coordinates of vertices to corners if another frame has them at corners. */
 static mr_status
 join_texcoords(mr_ctx *ctx, const joined *j)
 {

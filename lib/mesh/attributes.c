@@ -152,7 +152,7 @@ value_at(const mr_carried *c, size_t at)
 	return c->shape.type == 'd' ? ((const double *)c->from)[at] : ((const uint8_t *)c->from)[at];
 }
 
-/* Of equal ones that is what they are.  Beside a corner that has no value there is none. */
+/* The mean of equal values is exact.  A corner without a value makes the mean missing. */
 static double
 mean_of(const mr_carried *c, size_t wide, size_t k, const uint32_t *parent, const double *weight, size_t n)
 {

@@ -4,7 +4,7 @@
 
 #include "stream/frame.h"
 
-/* What a column holds.  From MR_MEAN on it goes along to rows that are made of its own. */
+/* The kind of a column.  From MR_MEAN on it goes along to rows that are made of its own. */
 typedef enum mr_attribute {
 	MR_OWN,       /* what is of this surface alone, or found anew */
 	MR_SAMPLED,   /* how points sample their surface */
@@ -16,7 +16,7 @@ typedef enum mr_attribute {
 	MR_LEAST      /* the least of those with a weight */
 } mr_attribute;
 
-/* What stands in the rows of a surface that lacks the column, beside one that has it. */
+/* Values for the rows of a surface without the column, when it is joined with one that has it. */
 typedef enum mr_missing {
 	MR_NEEDED, /* nothing can: the column is lost */
 	MR_ZERO,   /* for labels with a list, the first name */

@@ -8,7 +8,7 @@ packed(mr_rgb c)
 	return (uint32_t)c.r | (uint32_t)c.g << 8 | (uint32_t)c.b << 16;
 }
 
-/* Of a number between 0 and 1. */
+/* The colour of a number between 0 and 1. */
 MR_EXPORT(color_number)
 uint32_t
 color_number(double t, bool diverging)

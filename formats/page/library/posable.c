@@ -70,7 +70,7 @@ smooth_base(posable *s, const mr_mesh *mesh, mr_places *source)
 	return mr_smooth(&s->ctx, mesh, &opts, p, NULL);
 }
 
-/* Of the closest corner of the mesh. */
+/* The row of the closest corner of the mesh. */
 static const uint32_t *
 regions_of_base(posable *s, const mr_mesh *mesh, const uint32_t *region)
 {

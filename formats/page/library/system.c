@@ -1,4 +1,4 @@
-/* What the library asks of its system, where that is a browser: memory from malloc, and one thread. */
+/* The system calls of the library in a browser: memory from malloc, and one thread. */
 #include "base/memory.h"
 #include "base/parallel.h"
 
@@ -6,7 +6,7 @@
 
 enum { ALIGN = 64 };
 
-/* What stands before the memory. */
+/* The header before the memory. */
 typedef struct head {
 	void *begin;
 	size_t size;
