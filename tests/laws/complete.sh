@@ -15,7 +15,7 @@ for page in man/mr-*.1; do
 		grep -qx "\.Sh $section" "$page" || { echo "$page: no section $section"; fail=1; }
 	done
 done
-for page in mr.7 mr-promises.7 mr-scale.7 mr-stream.5 mr-formats.5; do
+for page in mr.7 mr-promises.7 mr-scale.7 mr-recipes.7 mr-stream.5 mr-formats.5; do
 	[ -f "man/$page" ] || { echo "no man/$page"; fail=1; }
 done
 for test in $(grep -oE '\b(unit|cmd|pipe|bad|laws)/[a-z_-]+' man/mr-promises.7); do

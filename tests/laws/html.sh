@@ -11,7 +11,8 @@ for page in *.html; do
 	while read -r link; do
 		file=${link%%#*} place=${link#"$file"}
 		[ -e "${file:-$page}" ] || { echo "$page: no $link"; fail=1; }
-		[ -z "${place#\#}" ] || grep -qF "id=\"${place#\#}\"" "${file:-$page}" || { echo "$page: no place $link"; fail=1; }
+		[ -z "$place" ] || grep -qF "id=\"${place#\#}\"" "${file:-$page}" ||
+			{ echo "$page: no place $link"; fail=1; }
 	done <links
 done
 [ "$(grep -cE '<img |class="out"' mr-recipes.7.html)" -ge 30 ] || { echo "recipes without results"; fail=1; }

@@ -1,6 +1,7 @@
 # Each line of the tables of filters in mr-recipes(7) runs as it stands; its recipes run with the other pages' examples.
 page=$TOP/man/mr-recipes.7
-mr-make bumpy -n 800 | mr-crop --drop sphere:0,1.5,0,0.4 -o in.mrs && mr-export in.mrs in.ply && mr-export in.mrs in.glb || exit
+mr-make bumpy -n 800 | mr-crop --drop sphere:0,1.5,0,0.4 -o in.mrs &&
+	mr-export in.mrs in.ply && mr-export in.mrs in.glb || exit
 mr-make bumpy --texcoords -n 800 | mr-export in.obj
 mr-make bumpy --noise 0.003 -n 800 | mr-export onto.ply
 mr-make bumpy --points 800 | mr-export cloud.ply
