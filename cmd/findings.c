@@ -64,7 +64,7 @@ static const entry table[MR_FINDING_KINDS] = {
 	[MR_UNHELD] = { VERDICT_POOR, 0, "{layer}: {what}", "",
 	    "No constraint holds a part, no vertex is free, or a motion of a handle is impossible." },
 	[MR_UNALIGNED] = { VERDICT_POOR, 0, "{layer}: {what}", "",
-	    "Two surfaces that are compared fit after a motion, or no motion was found that fits them." },
+	    "Two surfaces that are compared fit after a motion, or no motion fits them, or several do." },
 	[MR_LIMIT] = { VERDICT_GOOD, 0, "{what}{at}", "", "An option has no effect, or could not be met." },
 	[MR_LAYER] = { VERDICT_GOOD, 0, "{layer} is used, not {what}, the layer worked on last", "",
 	    "The tool works on another layer than the latest." },

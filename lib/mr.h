@@ -883,12 +883,15 @@ typedef struct mr_align_result {
 	double scale;
 	double overlap;  /* share of the samples that have a partner on the reference */
 	double residual; /* root mean square distance of those from its planes */
-	double score, second; /* how much of it lies on the reference, 0 to 1; of the next best place that is another */
-	bool found;           /* else map is the identity, and the frame stays */
+	double score;  /* share that lies on the reference, less twice the share that contradicts it */
+	double second; /* score of the next best place that is another */
+	bool found;    /* else map is the identity, and the frame stays */
+	bool sure;     /* no other place fits nearly as well */
 } mr_align_result;
 
 /* Moves the frame so that it fits the reference: coarse by features, fine by points to planes.  The motion is
- * the column `transform` of no layer.  If none fits, the frame stays and is found unaligned. */
+ * the column `transform` of no layer.  If none fits, the frame stays; then, and if another place fits nearly as
+ * well, it is found unaligned. */
 MR_API mr_status mr_align_frame(mr_ctx *ctx, mr_frame *f, mr_frame *reference, const mr_align_opts *opts,
     mr_align_result *result) MR_WARN_UNUSED;
 

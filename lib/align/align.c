@@ -10,8 +10,9 @@ enum { GUESSES = 8000, SHOWN = 128, TRIED = 24, DRAWN = 500, JUDGED = 1500, ROUN
 /* Guesses that turn each other's points by less than this many steps are one. */
 static const double SAME = 6;
 
-/* A motion is found where partners fit it well, and no other place does nearly as well. */
-static const double FITS = 0.55, OTHER = 0.8, BETTER = 0.05;
+/* A motion is sure if no other place comes this close to its score.  Of 295 pairs of scans that have 40 or 60
+ * % in common, 47 are elsewhere: 3 of them are sure at 0.2, and 5 at 0.18. */
+static const double BETTER = 0.2;
 
 /* ---- guesses ---- */
 
@@ -192,13 +193,27 @@ draw_near(
 	return MR_OK;
 }
 
+/* How well both sides agree on a motion, seen from either. */
+static mr_status
+judge(mr_ctx *ctx, pairing both[2], candidate *c)
+{
+	mr_affine back = mr_align_inverse(&c->map);
+	double there, here;
+
+	MR_TRY(mr_align_agreement(ctx, &both[0], &c->map, &there));
+	MR_TRY(mr_align_agreement(ctx, &both[1], &back, &here));
+	c->score = (there + here) / 2;
+	return MR_OK;
+}
+
 mr_status
 mr_align_find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_result *r, mr_affine *map)
 {
 	bool oriented = a->oriented && b->oriented;
 	candidate *c = MR_NEW(ctx, GUESSES, candidate);
 	pairing few = mr_align_pairing(ctx, &a->sparse, &b->sparse, &b->sparse, oriented, DRAWN);
-	pairing some = mr_align_pairing(ctx, &a->sparse, &b->sparse, &b->sparse, oriented, JUDGED);
+	pairing both[2] = { mr_align_pairing(ctx, &a->sparse, &b->sparse, &b->sparse, oriented, JUDGED),
+		mr_align_pairing(ctx, &b->sparse, &a->sparse, &a->sparse, oriented, JUDGED) };
 	pairing all = mr_align_pairing(ctx, &a->dense, &b->dense, &b->sparse, oriented, a->dense.n);
 	size_t n = guess_motions(ctx, a, b, c);
 	drawn d;
@@ -208,19 +223,19 @@ mr_align_find(mr_ctx *ctx, const model *a, const model *b, bool scale, mr_align_
 		return MR_OK;
 	for (size_t i = 0; i < n; i++) {
 		MR_TRY(draw_near(ctx, &few, 3 * STEP, 1.5 * STEP, ROUNDS, scale, &c[i].map, &d));
-		MR_TRY(mr_align_pair(ctx, &some, true, &c[i].map));
-		c[i].score = mr_align_score(&some, STEP, STEP / 2);
+		MR_TRY(judge(ctx, both, &c[i]));
 	}
 	qsort(c, n, sizeof *c, compare_scores);
-	*map = c[0].map;
-	MR_TRY(draw_near(ctx, &all, 1.5 * STEP, 1 * STEP, LAST, scale, map, &d));
-	MR_TRY(mr_align_pair(ctx, &some, true, map));
-	r->score = mr_align_score(&some, STEP, STEP / 2);
 	for (size_t i = 1; i < n && r->second == 0; i++)
 		r->second = is_same(&c[0].map, &c[i].map) ? 0 : c[i].score;
+	MR_TRY(draw_near(ctx, &all, 1.5 * STEP, 1 * STEP, LAST, scale, &c[0].map, &d));
+	MR_TRY(judge(ctx, both, &c[0]));
+	*map = c[0].map;
+	r->score = c[0].score;
 	r->overlap = d.share;
 	r->residual = d.rms;
-	r->found = r->score > FITS * r->overlap && r->score - OTHER * r->second > BETTER;
+	r->found = r->score > 0;
+	r->sure = r->score - r->second > BETTER;
 	return MR_OK;
 }
 

@@ -64,9 +64,10 @@ static int
 compare_edges(const void *a, const void *b)
 {
 	const edge *x = a, *y = b;
+	double by = x->r.score - x->r.second, other = y->r.score - y->r.second;
 
-	if (x->r.score != y->r.score)
-		return x->r.score < y->r.score ? 1 : -1;
+	if (by != other)
+		return by < other ? 1 : -1;
 	return x->from != y->from ? (x->from > y->from) - (x->from < y->from)
 	                          : (x->onto > y->onto) - (x->onto < y->onto);
 }
@@ -199,6 +200,8 @@ mr_align_all(mr_ctx *ctx, const mr_align_side *side, size_t n, mr_align_result *
 		uint32_t k = joined[i];
 		if (g.by[k])
 			r[k] = g.by[k]->r;
+		else
+			r[k].sure = true;
 		mr_align_put_map(&g.model[k], &g.model[g.root], &g.pose[k], &r[k]);
 		r[k].found = true;
 	}

@@ -86,6 +86,23 @@ mr_align_score(const pairing *w, double reach, double limit)
 	return sum / (double)w->n;
 }
 
+mr_status
+mr_align_agreement(mr_ctx *ctx, pairing *w, const mr_affine *map, double *share)
+{
+	enum { AGAINST = 2 };
+	const double near = 8 * STEP;
+	size_t off = 0;
+
+	MR_TRY(mr_align_pair(ctx, w, false, map));
+	MR_TRY(mr_near_query(ctx, w->b->near, w->p, w->n, 1, w->near, NULL));
+	for (size_t i = 0; i < w->n; i++) {
+		double d2 = mr_norm2(mr_sub(w->b->p[w->near[i]], w->p[i]));
+		off += !w->b->rim[w->near[i]] && d2 > STEP * STEP && d2 < near * near;
+	}
+	*share = mr_align_score(w, STEP, STEP / 2) - AGAINST * (double)off / (double)w->n;
+	return MR_OK;
+}
+
 /* ---- points to planes ---- */
 
 /* The weighted rows J x = off of the least-squares system. */
@@ -243,8 +260,9 @@ step(mr_ctx *ctx, const pairing *w, size_t pairings, mr_affine *pose, size_t sid
 mr_affine
 mr_align_inverse(const mr_affine *t)
 {
-	const double *m = t->m;
-	mr_affine back = { { m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0 } };
+	const double *m = t->m, s = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
+	mr_affine back = { { m[0] / s, m[4] / s, m[8] / s, 0, m[1] / s, m[5] / s, m[9] / s, 0, m[2] / s,
+	    m[6] / s, m[10] / s, 0 } };
 	mr_v3 to = mr_apply(&back, mr_vec(m[3], m[7], m[11]));
 
 	back.m[3] = -to.x;

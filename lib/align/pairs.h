@@ -33,7 +33,11 @@ mr_status mr_align_pair(mr_ctx *ctx, pairing *w, bool exactly, const mr_affine *
 /* The share of the points on the other side: each by its distance from the plane and by the normals. */
 double mr_align_score(const pairing *w, double reach, double limit);
 
-/* The inverse of a rotation and translation. */
+/* That share of a map, exactly, less twice the share of the points that contradict it: one to eight steps
+ * from the other side, where that does not end. */
+mr_status mr_align_agreement(mr_ctx *ctx, pairing *w, const mr_affine *map, double *share) MR_WARN_UNUSED;
+
+/* The inverse of a similarity. */
 mr_affine mr_align_inverse(const mr_affine *t);
 
 /* Rounds of pairing and stepping, within a reach that falls from `from` to `to`, until all sides rest.

@@ -23,13 +23,15 @@ put(mr_ctx *ctx, mr_frame *f, const mr_align_opts *o, const mr_align_result *r)
 	const char *layer;
 	double *map;
 
-	if (!r->found) {
+	if (!r->found || !r->sure) {
 		MR_TRY(mr_layer_result(ctx, f, o->from ? o->from : o->layer, &layer));
-		mr_found(ctx,
-		    &(mr_finding){
-			.kind = MR_UNALIGNED, .layer = layer, .what = "no motion was found that fits it" });
-		return MR_OK;
+		mr_found(ctx, &(mr_finding){ .kind = MR_UNALIGNED,
+				  .layer = layer,
+				  .what = r->found ? "another place fits nearly as well"
+		                                   : "no motion was found that fits it" });
 	}
+	if (!r->found)
+		return MR_OK;
 	MR_TRY(mr_transform_frame(ctx, f, o->layer, r->map));
 	map = MR_NEW(ctx, 12, double);
 	memcpy(map, r->map, sizeof r->map);
