@@ -320,7 +320,7 @@ parse_command_line(cmd *c, int argc, char **argv)
 		{ 0, "no-history", CMD_FLAG, &s->no_history, 0, 0, "", "add no line to the frames' history",
 		    NULL },
 		{ 'v', "verbose", CMD_FLAG, &c->verbose, 0, 0, "", "report each step", NULL },
-		{ 'q', "quiet", CMD_FLAG, &c->quiet, 0, 0, "", "show neither warnings nor progress", NULL },
+		{ 'q', "quiet", CMD_FLAG, &c->quiet, 0, 0, "", "look for no findings, show no progress", NULL },
 		{ 'h', "help", CMD_FLAG, &s->help, 0, 0, "", "print this and exit", NULL },
 		{ 0, "describe", CMD_FLAG, &s->describe, 0, 0, "", "print the options as JSON and exit",
 		    NULL },

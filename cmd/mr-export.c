@@ -20,7 +20,7 @@ static const cmd_opt table[] = {
 	    NULL },
 	{ 0, "float", CMD_FLAG, &floats, 0, 0, NULL, "a ply has floats in place of doubles", NULL },
 	{ 0, "lods", CMD_FLAG, &scene.gltf.lods, 0, 0, NULL,
-	    "a glb has the frames after the first as levels of its detail", NULL },
+	    "a glb has the frames after the first as its coarser levels", NULL },
 	{ 0, "no-normals", CMD_FLAG, &scene.gltf.no_normals, 0, 0, NULL, "a glb has no normals", NULL },
 	{ 0, "quantize", CMD_FLAG, &scene.gltf.quantize, 0, 0, NULL,
 	    "a glb has positions and texture coordinates of 16 bits, normals of 8", NULL },
