@@ -5,10 +5,10 @@
 #	make bench      speed and memory beside the peers'; T=NAME one of them
 #	make demo       the main job on real models: pictures and tables, in demo/, and a page of all, demo/index.html
 #	make install    tools, pages, completions and library to $(DESTDIR)$(PREFIX)
-#	make setup      the packages they need; the other targets see to that by themselves
+#	make setup      the packages they need
 #
 # make help-all tells of the others, which are in .ci/*.mk: check-long, lint, matrix, fuzz, bless, uninstall, deb ...
-# NOSETUP=1: no target installs a package; what is missing is named.
+# Only setup, check, check-X and demo install packages: others name what is missing.  NOSETUP=1: none does; NOSETUP=: all do.
 
 PREFIX  ?= /usr/local
 DESTDIR ?=
@@ -22,7 +22,7 @@ LDFLAGS ?= $(if $(SAN),$(if $(findstring clang,$(CC)),-fsanitize-link-c++-runtim
 VERSION := 1.0
 SONAME  := libmr.so.$(basename $(VERSION))
 JOBS    ?= $(shell nproc 2>/dev/null || echo 2)
-NOSETUP ?=
+NOSETUP ?= $(if $(filter-out setup check% demo,$(or $(MAKECMDGOALS),all)),1)
 export NOSETUP
 T       ?=
 
