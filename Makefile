@@ -8,7 +8,8 @@
 #	make setup      the packages they need
 #
 # make help-all tells of the others, which are in .ci/*.mk: check-long, lint, matrix, fuzz, bless, uninstall, deb ...
-# Only setup, check, check-X and demo install packages: others name what is missing.  NOSETUP=1: none does; NOSETUP=: all do.
+# Only setup, check, check-X and demo install packages, others name what is missing; NOSETUP=1: none does,
+# NOSETUP=: all do.
 
 PREFIX  ?= /usr/local
 DESTDIR ?=
