@@ -474,7 +474,7 @@ begin_notes(mr_ctx *ctx, const mr_page *page)
 	return notes;
 }
 
-/* How columns are stored is told in a text of no layer, `page`. */
+/* A text of no layer, `page`, says how columns are stored. */
 static mr_status
 take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const displaced *d, mr_frame *to)
 {

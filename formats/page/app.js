@@ -158,7 +158,7 @@ export class App {
 		return [...this.drawn].filter(([name]) => visible.has(name)).map(([, d]) => d.box).filter(Boolean);
 	}
 
-	/* Of all that is seen; null: of nothing. */
+	/* The box of all layers shown; null if none is. */
 	box() {
 		const boxes = this.boxes();
 

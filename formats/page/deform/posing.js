@@ -178,7 +178,7 @@ export class Posing {
 		$("reset").disabled = this.pose.line() === "";
 	}
 
-	/* What to do, until it is done for the first time. */
+	/* The hint at the gizmo, until the first drag. */
 	hint() {
 		$("hint").hidden = this.dragged || !this.app.stage.gizmo.there;
 		$("hint").textContent = "drag to " + document.querySelector("input[name=mode]:checked").id;

@@ -1,6 +1,6 @@
-/* What handles pose, for the page: a base by its response to them, and over it the mesh by its detail, as of
- * mr-decode.  A stream has all that, or the page makes it for painted handles: a base, where there is none,
- * by mr-smooth, the response by mr-solve --basis, the detail by mr-encode. */
+/* The layers that handles pose in the page: a base by its response to them, and over it the mesh by its
+ * detail, as of mr-decode.  A stream has all that, or the page makes it for painted handles: a base, where
+ * there is none, by mr-smooth, the response by mr-solve --basis, the detail by mr-encode. */
 #include "edit/deform.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
@@ -8,8 +8,8 @@
 #include "formats/page/library/export.h"
 #include "space/bvh.h"
 
-/* What the page has, and frees after its surface: arrays, those that are not there NULL, and how many there
- * are.  Without a response that and the detail are made of the mesh and its regions. */
+/* The arrays of the page, which frees them after its surface; those that are not there NULL, and how many
+ * there are.  Without a response that and the detail are made of the mesh and its regions. */
 typedef struct parts {
 	const mr_v3 *position, *rest; /* nv: of the base; where it was encoded, if elsewhere */
 	const mr_tri *triangles;
