@@ -5,6 +5,7 @@
 #include "edit/deform.h"
 #include "edit/deform_system.h"
 #include "edit/islands.h"
+#include "mesh/repair.h"
 #include "op/laplace.h"
 #include "remesh/relax.h"
 #include "space/contact.h"
@@ -23,6 +24,7 @@ typedef struct filler {
 	mr_ctx *ctx;
 	const mr_mesh *m;
 	const mr_fill_opts *o;
+	const mr_bvh *surface;
 	mr_loops loops;
 	hole *hole; /* n, the shortest first */
 	size_t n;
@@ -469,13 +471,13 @@ fair(filler *w, size_t order, size_t first, size_t end)
 
 /* ---- what crosses ---- */
 
-/* The patches whose loops are not bad, and the surface with them. */
+/* The patches whose loops are not bad. */
 static void
 gather(filler *w, const bool *bad, mr_patches *out)
 {
 	mr_v3 *p = MR_NEW(w->ctx, w->d.nv, mr_v3);
 	mr_tri *t = MR_NEW(w->ctx, w->d.nf, mr_tri);
-	uint32_t *he = MR_NEW(w->ctx, w->rim, uint32_t), *at = MR_NEW(w->ctx, w->rim, uint32_t);
+	uint32_t *he = MR_NEW(w->ctx, w->rim, uint32_t);
 	uint32_t *loop = MR_NEW(w->ctx, w->d.nv, uint32_t), *number = MR_NEW(w->ctx, w->d.nv, uint32_t);
 	size_t nv = 0, nf = 0;
 
@@ -483,11 +485,8 @@ gather(filler *w, const bool *bad, mr_patches *out)
 	for (size_t v = 0; v < w->d.nv; v++) {
 		if (bad[w->loop[v]])
 			continue;
-		if (v < w->rim) {
-			he[nv] = w->he[v];
-			at[nv] = mr_he_from(w->m, he[nv]);
-			out->rim++;
-		}
+		if (v < w->rim)
+			he[out->rim++] = w->he[v];
 		p[nv] = w->d.p[v];
 		loop[nv] = w->loop[v];
 		number[v] = (uint32_t)nv++;
@@ -500,20 +499,18 @@ gather(filler *w, const bool *bad, mr_patches *out)
 		nf++;
 	}
 	out->m = (mr_mesh){ w->m->name, p, t, nv, nf };
-	out->all = join(w->ctx, w->m, &out->m, out->rim, at);
 }
 
 typedef struct crossing {
-	const mr_mesh *all;
 	const mr_patches *patches;
-	size_t before; /* faces of the surface */
-	uint32_t face; /* of a patch */
+	const mr_mesh *other; /* these, or the surface */
+	uint32_t face;
 } crossing;
 
 static uint32_t
-loop_of(const crossing *c, size_t f)
+loop_of(const mr_patches *patches, size_t f)
 {
-	return c->patches->loop[c->patches->m.t[f - c->before].v[0]];
+	return patches->loop[patches->m.t[f].v[0]];
 }
 
 /* Whether the face does not meet face g, or g is of a longer loop, whose patch gives way. */
@@ -521,12 +518,13 @@ static bool
 is_good(void *arg, uint32_t g)
 {
 	const crossing *c = arg;
+	const mr_mesh *m = &c->patches->m;
 	mr_v3 p[3], q[3];
 
-	if (g == c->face || (g >= c->before && loop_of(c, g) > loop_of(c, c->face)))
+	if (c->other == m && (g == c->face || loop_of(c->patches, g) > loop_of(c->patches, c->face)))
 		return true;
-	mr_corners(c->all, c->face, p);
-	mr_corners(c->all, g, q);
+	mr_corners(m, c->face, p);
+	mr_corners(c->other, g, q);
 	return mr_triangle_degenerate(p[0], p[1], p[2]) || mr_triangle_degenerate(q[0], q[1], q[2]) ||
 	       !mr_triangles_intersect(p, q);
 }
@@ -536,22 +534,23 @@ is_good(void *arg, uint32_t g)
 static bool
 find_crossings(const filler *w, const mr_patches *patches, bool *bad, bool *at)
 {
-	crossing c = { &patches->all, patches, w->m->nf, 0 };
+	crossing old = { patches, w->m, 0 }, new = { patches, &patches->m, 0 };
 	mr_bvh *bvh;
 	bool any = false;
 
 	memset(bad, 0, w->n * sizeof *bad);
 	memset(at, 0, w->d.nv * sizeof *at);
-	mr_bvh_build(w->ctx, c.all, &bvh);
-	for (size_t f = c.before; f < c.all->nf; f++) {
+	mr_bvh_build(w->ctx, &patches->m, &bvh);
+	for (uint32_t f = 0; f < patches->m.nf; f++) {
 		mr_v3 p[3];
-		c.face = (uint32_t)f;
-		mr_corners(c.all, f, p);
-		if (mr_bvh_overlap(bvh, mr_box_of(p, 3), is_good, &c))
+		old.face = new.face = f;
+		mr_corners(&patches->m, f, p);
+		if (mr_bvh_overlap(w->surface, mr_box_of(p, 3), is_good, &old) &&
+		    mr_bvh_overlap(bvh, mr_box_of(p, 3), is_good, &new))
 			continue;
-		any = bad[loop_of(&c, f)] = true;
+		any = bad[loop_of(patches, f)] = true;
 		for (int k = 0; k < 3; k++)
-			at[patches->m.t[f - c.before].v[k]] = true;
+			at[patches->m.t[f].v[k]] = true;
 	}
 	return any;
 }
@@ -603,6 +602,16 @@ report(const filler *w, const bool *bad, mr_fill_result *r)
 	f.what = mr_format(w->ctx, "open, as their filling would cross the surface: %zu of %zu holes",
 	    r->crossing, r->crossing + r->filled);
 	mr_found(w->ctx, &f);
+}
+
+static mr_mesh
+join_patches(const filler *w, const mr_patches *out)
+{
+	uint32_t *at = MR_NEW(w->ctx, out->rim, uint32_t);
+
+	for (size_t i = 0; i < out->rim; i++)
+		at[i] = mr_he_from(w->m, out->he[i]);
+	return join(w->ctx, w->m, &out->m, out->rim, at);
 }
 
 /* The rims of the loops that are filled, hole by hole. */
@@ -667,6 +676,10 @@ span_holes(filler *w, bool *bad, mr_patches *out)
 static mr_status
 fill_holes(filler *w, bool *bad, mr_patches *out)
 {
+	mr_bvh *surface;
+
+	mr_bvh_build(w->ctx, w->m, &surface);
+	w->surface = surface;
 	MR_TRY(span_holes(w, bad, out));
 	MR_TRY(refine(w));
 	MR_TRY(fair(w, 1, 0, w->n));
@@ -676,6 +689,95 @@ fill_holes(filler *w, bool *bad, mr_patches *out)
 	}
 	MR_TRY(settle(w, bad, out));
 	return leave_islands(w, bad) ? fill_holes(w, bad, out) : MR_OK;
+}
+
+/* ---- loops that touch ---- */
+
+/* Marks the vertices of a loop whose place another that is not beside it has.  Whether there are such. */
+static bool
+mark_touching(const filler *w, uint32_t loop, bool *touching)
+{
+	const uint32_t *he = w->loops.he + w->loops.start[loop];
+	size_t n = w->loops.start[loop + 1] - w->loops.start[loop], places;
+	MR_SCOPE(w->ctx);
+	uint32_t *place = MR_NEW(w->ctx, n, uint32_t), *last = MR_NEW(w->ctx, n, uint32_t);
+	mr_v3 *p = MR_NEW(w->ctx, n, mr_v3);
+	bool any = false;
+
+	for (size_t i = 0; i < n; i++)
+		p[i] = w->m->p[mr_he_from(w->m, he[i])];
+	mr_weld(w->ctx, p, n, 0, place, &places);
+	memset(last, 0xff, n * sizeof *last);
+	for (uint32_t i = 0; i < n; i++) {
+		uint32_t j = last[place[i]];
+		last[place[i]] = i;
+		if (j == MR_NONE || i - j == 1 || i - j == n - 1)
+			continue;
+		touching[mr_he_from(w->m, he[i])] = touching[mr_he_from(w->m, he[j])] = any = true;
+	}
+	return any;
+}
+
+/* m with the vertices that touch joined; map: their new numbers. */
+static mr_mesh
+join_vertices(mr_ctx *ctx, const mr_mesh *m, const bool *touching, uint32_t *map)
+{
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	size_t nv, nf = 0;
+
+	mr_weld_some(ctx, m->p, m->nv, 0, touching, map, &nv);
+	for (size_t v = 0; v < m->nv; v++)
+		p[map[v]] = m->p[v];
+	for (size_t f = 0; f < m->nf; f++) {
+		for (int k = 0; k < 3; k++)
+			t[nf].v[k] = map[m->t[f].v[k]];
+		nf += t[nf].v[0] != t[nf].v[1] && t[nf].v[1] != t[nf].v[2] && t[nf].v[2] != t[nf].v[0];
+	}
+	return (mr_mesh){ m->name, p, t, nv, nf };
+}
+
+/* Whether all loops through vertices that touch can be filled once these are joined: else what stays open
+ * would touch itself at one vertex. */
+static mr_status
+try_joined(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, const bool *touching, bool *good)
+{
+	uint32_t *map = MR_NEW(ctx, m->nv, uint32_t);
+	mr_mesh joined = join_vertices(ctx, m, touching, map);
+	uint32_t *open = MR_NEW_ZERO(ctx, joined.nv, uint32_t);
+	bool *bad;
+	filler w = { .ctx = ctx, .m = &joined, .o = o };
+	mr_patches patches;
+
+	mr_loops_find(ctx, &joined, &w.loops);
+	for (size_t k = 0; k < w.loops.start[w.loops.count]; k++)
+		open[mr_he_from(&joined, w.loops.he[k])]++;
+	choose_loops(&w);
+	bad = MR_NEW_ZERO(ctx, w.n, bool);
+	MR_TRY(fill_holes(&w, bad, &patches));
+	for (size_t i = 0; i < patches.rim; i++)
+		open[mr_he_from(&joined, patches.he[i])]--;
+	*good = true;
+	for (size_t v = 0; v < m->nv; v++)
+		*good &= !touching[v] || !open[map[v]];
+	return MR_OK;
+}
+
+mr_status
+mr_fill_touching(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, bool **touching)
+{
+	filler w = { .ctx = ctx, .m = m, .o = o };
+	bool any = false;
+
+	*touching = MR_NEW_ZERO(ctx, m->nv, bool);
+	mr_loops_find(ctx, m, &w.loops);
+	choose_loops(&w);
+	for (size_t i = 0; i < w.n; i++)
+		any |= mark_touching(&w, w.hole[i].loop, *touching);
+	if (any)
+		MR_TRY(try_joined(ctx, m, o, *touching, &any));
+	*touching = any ? *touching : NULL;
+	return MR_OK;
 }
 
 mr_status
@@ -689,8 +791,10 @@ mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out, m
 	bad = MR_NEW_ZERO(ctx, w.n, bool);
 	*result = (mr_fill_result){ .loops = w.loops.count };
 	*out = (mr_patches){ .all = *m };
-	if (w.n > 0)
+	if (w.n > 0) {
 		MR_TRY(fill_holes(&w, bad, out));
+		out->all = join_patches(&w, out);
+	}
 	report(&w, bad, result);
 	result->vertices = out->m.nv - out->rim;
 	result->faces = out->m.nf;

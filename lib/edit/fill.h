@@ -13,6 +13,11 @@ typedef struct mr_patches {
 	const uint32_t *loop; /* of each vertex: which hole it fills, 0 the shortest */
 } mr_patches;
 
+/* touching: of each vertex whether a loop that can be filled passes its place again by another vertex, in the
+ * arena; NULL: none does. */
+mr_status mr_fill_touching(
+    mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, bool **touching) MR_WARN_UNUSED;
+
 /* Fills the boundary loops that the options choose, by default those no longer than a circle of a quarter of
  * their component's area, each with those of islands in it.  What no patch fills without crossing the surface
  * or a shorter loop's patch stays open, and is reported.  out: in the arena. */

@@ -79,28 +79,6 @@ rename_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *map, do
 	return mr_layer_put(ctx, f, m->name, "triangles", t, kept);
 }
 
-/* mr_weld of those that may. */
-static void
-weld_some(mr_ctx *ctx, const mr_mesh *m, double eps, const bool *may, uint32_t *map, size_t *count)
-{
-	uint32_t *own = MR_NEW(ctx, m->nv, uint32_t), *as = MR_NEW(ctx, m->nv, uint32_t);
-	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
-	size_t n = 0, k = 0;
-
-	for (size_t i = 0; i < m->nv; i++)
-		if (may[i])
-			p[n++] = m->p[i];
-	mr_weld(ctx, p, n, eps, own, &n);
-	memset(as, 0xff, m->nv * sizeof *as);
-	*count = 0;
-	for (size_t i = 0; i < m->nv; i++) {
-		uint32_t *number = may[i] ? &as[own[k++]] : &map[i];
-		if (!may[i] || *number == MR_NONE)
-			*number = (uint32_t)(*count)++;
-		map[i] = *number;
-	}
-}
-
 mr_status
 mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, const bool *may, size_t *joined)
 {
@@ -111,10 +89,7 @@ mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps, const boo
 	MR_TRY(mr_layer_surface_or_points_of_any_size(ctx, f, layer, &m));
 	map = MR_NEW(ctx, m.nv, uint32_t);
 	of = MR_NEW(ctx, m.nv, uint32_t);
-	if (may)
-		weld_some(ctx, &m, eps, may, map, &n);
-	else
-		mr_weld(ctx, m.p, m.nv, eps, map, &n);
+	mr_weld_some(ctx, m.p, m.nv, eps, may, map, &n);
 	for (size_t i = 0; i < m.nv; i++)
 		if (map[i] == next)
 			of[next++] = (uint32_t)i;

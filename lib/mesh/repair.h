@@ -9,6 +9,10 @@
  * use; *count: how many. */
 void mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count);
 
+/* mr_weld of those that may; NULL: all. */
+void mr_weld_some(
+    mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, const bool *may, uint32_t *map, size_t *count);
+
 /* The counts of a repair. */
 typedef struct mr_repair_report {
 	size_t degenerate;     /* faces dropped: a vertex twice, or no area */

@@ -100,3 +100,29 @@ mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t
 	}
 	*count = w.used;
 }
+
+void
+mr_weld_some(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, const bool *may, uint32_t *map, size_t *count)
+{
+	MR_SCOPE(ctx);
+	uint32_t *own = MR_NEW(ctx, n, uint32_t), *as = MR_NEW(ctx, n, uint32_t);
+	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
+	size_t some = 0, k = 0;
+
+	if (!may) {
+		mr_weld(ctx, p, n, eps, map, count);
+		return;
+	}
+	for (size_t i = 0; i < n; i++)
+		if (may[i])
+			q[some++] = p[i];
+	mr_weld(ctx, q, some, eps, own, &some);
+	memset(as, 0xff, n * sizeof *as);
+	*count = 0;
+	for (size_t i = 0; i < n; i++) {
+		uint32_t *number = may[i] ? &as[own[k++]] : &map[i];
+		if (!may[i] || *number == MR_NONE)
+			*number = (uint32_t)(*count)++;
+		map[i] = *number;
+	}
+}

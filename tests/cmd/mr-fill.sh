@@ -34,6 +34,10 @@ awk 'BEGIN {
 	for (i = 0; i < 30; i++) if (i % 6 < 5 && i != 14 && i != 21) print "f", i + 1, i + 2, i + 8, i + 7
 }' >touch.obj
 mr-import touch.obj | mr-fill --stats stats.json | mr-info | grep topology
+echo 'and by two vertices at one place'
+sed -e '$a v 3 3 0' -e 's/^f 21 22 28 27$/f 21 37 28 27/' touch.obj >twice.obj
+mr-import twice.obj | mr-info | grep topology
+mr-import twice.obj | mr-fill --stats stats.json | mr-info | grep topology
 
 echo 'colours go on, labels are those around, polygons stay'
 cat >cube.obj <<'OBJ'
