@@ -122,7 +122,8 @@ def same_topology(*source):
 
 def joined(surface):
     """Its triangles, vertices at the same place as one where that leaves a manifold."""
-    _, number = np.unique(np.round(surface["position"], 9), axis=0, return_inverse=True)
+    p = surface["position"]
+    _, number = np.unique(np.rint(p / (2e-8 * np.linalg.norm(np.ptp(p, 0)) or 1)), axis=0, return_inverse=True)
     triangles = number.reshape(-1)[surface["triangles"]]
     return triangles if topology(triangles)["manifold"] else surface["triangles"]
 

@@ -9,9 +9,9 @@ import numpy as np
 
 
 def share(box, p):
-    """Positions as shares of the box of others."""
-    low, extent = box.min(0), np.ptp(box, 0)
-    return (p - low) / np.where(extent > 0, extent, 1)
+    """Positions as shares of the box of others, halved first: the largest numbers have no difference."""
+    low, extent = box.min(0) / 2, np.ptp(box / 2, 0)
+    return (p / 2 - low) / np.where(extent > 0, extent, 1)
 
 
 def painted(frames):
