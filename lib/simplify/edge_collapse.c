@@ -182,6 +182,17 @@ distance2(const mr_dyn *d, const mr_site *site, const mr_merge *m)
 	return mr_quadric_at(&site[a].q, m->sum.x) + mr_quadric_at(&site[b].q, mr_sub(m->sum.x, m->sum.ab));
 }
 
+/* The minimum, no farther from the middle of the edge than this is long: where the quadric is nearly flat,
+ * and where values of several charts agree, is far from the surface. */
+static mr_v3
+draw_near(const mr_merge_sum *s)
+{
+	mr_v3 middle = mr_mul(0.5, s->ab), off = mr_sub(s->x, middle);
+	double far2 = mr_norm2(off), most2 = mr_norm2(s->ab);
+
+	return far2 > most2 ? mr_axpy(sqrt(most2 / far2), off, middle) : s->x;
+}
+
 bool
 mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m)
 {
@@ -191,6 +202,7 @@ mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m)
 	if (!ring_of(d, m->edge, &m->ring))
 		return false;
 	descend(s, STEPS - 1);
+	s->x = draw_near(s);
 	if (!s->rim && s->factor.shift > 0)
 		s->x = keep_volume(d, &m->ring, m->edge, &s->factor, s->x);
 	error = mr_quadric_at(&s->q, s->x);

@@ -10,6 +10,8 @@
 
 /* The shape that needles may have where the faces asked for cannot be had otherwise: thin plates, say. */
 static const double LAST_NEEDLE = 0.01;
+/* The weight of seams, which may move along the surface, where boundaries have 10. */
+static const double SEAM = 0.3;
 
 static const uint16_t UNKNOWN = UINT16_MAX; /* no bucket: the edge has no merge */
 
@@ -37,6 +39,7 @@ typedef struct simplifier {
 	size_t fine;       /* faces at which the mesh is kept, lest the most be too few; 0: nowhere */
 	bool kept;         /* before there is room for any error */
 	size_t faces, merges;
+	size_t seams;         /* faces that seams had when they gave way; 0: they did not */
 	double longest;       /* edge to be merged, as long as there is room: beside long ones short ones of a
 	                         crease swing */
 	double error2;        /* greatest of the merges done */
@@ -224,6 +227,19 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		merge(s, h, &m);
 }
 
+/* Lets seams go that keep more faces than are asked for.  Whether there were some. */
+static bool
+give_up_seams(simplifier *s)
+{
+	if (!s->ties->face || s->ties->fixed || !s->d.curve || s->target == 0)
+		return false;
+	s->d.curve = NULL;
+	for (size_t v = 0; v < s->d.nv; v++)
+		s->d.kind[v] = s->d.kind[v] == MR_DEAD ? MR_DEAD : MR_SMOOTH;
+	s->seams = s->faces;
+	return true;
+}
+
 /* Lets errors be larger, where there are more faces than the most, or needles be thinner; each once, for the
  * sake of a number of faces; but not where a finer mesh was kept.  On a mesh with sharp edges larger errors
  * would close pockets and bend flats. */
@@ -240,7 +256,7 @@ relax(simplifier *s)
 		return true;
 	}
 	s->needle = LAST_NEEDLE;
-	return first;
+	return first || give_up_seams(s);
 }
 
 /* Adds the plane of face f to its corners, a third of the area each. */
@@ -261,7 +277,8 @@ add_rim(simplifier *s, uint32_t h, mr_v3 normal, double area_weight)
 	const mr_dyn *d = &s->d;
 	uint32_t a = d->v[h], b = mr_dyn_to(d, h);
 	mr_v3 edge = mr_sub(d->p[b], d->p[a]), side = mr_unit(mr_cross(normal, edge));
-	double weight = area_weight * s->o->boundary * mr_norm2(edge) / 2;
+	double of_edge = d->twin[h] == MR_NONE || !s->ties->face ? s->o->boundary : SEAM;
+	double weight = area_weight * of_edge * mr_norm2(edge) / 2;
 
 	if (d->twin[h] == MR_NONE)
 		s->site[a].rim = s->site[b].rim = true;
@@ -613,6 +630,23 @@ merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 		keep(s, out, onto, r);
 }
 
+/* Where faces are left, or seams gave way. */
+static void
+report(const simplifier *s, size_t nf)
+{
+	mr_finding f = { .kind = MR_LIMIT, .layer = s->m->name };
+
+	if (nf > s->target && s->target && !s->most && !isfinite(s->limit))
+		f.what = mr_format(s->ctx,
+		    "%s: %zu faces are left, not %zu: merging more would change the topology or fold it",
+		    s->m->name, nf, s->target);
+	else if (s->seams)
+		f.what = mr_format(
+		    s->ctx, "%s: seams give way, which would keep %zu faces", s->m->name, s->seams);
+	if (f.what)
+		mr_found(s->ctx, &f);
+}
+
 mr_status
 mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, const mr_simplify_ties *ties,
     mr_mesh *out, uint32_t *onto, mr_simplify_result *result)
@@ -637,13 +671,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, const m
 
 	MR_TRY(begin(&s, m));
 	merge_all(&s, out, onto, &r);
-	if (out->nf > s.target && s.target && !s.most && !isfinite(s.limit))
-		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
-				  .layer = m->name,
-				  .what = mr_format(ctx,
-				      "%s: %zu faces are left, not %zu: merging more would change the "
-				      "topology or fold it",
-				      m->name, out->nf, s.target) });
+	report(&s, out->nf);
 	if (s.ties->sharp && *s.ties->sharp && !s.ties->face) /* of a control mesh */
 		MR_TRY(mr_fill_sectors(ctx, out, s.ties->sharp));
 	r.vertices = out->nv;

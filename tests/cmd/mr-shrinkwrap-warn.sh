@@ -28,7 +28,7 @@ printf '0 0 0\n0 0 1\n0 1 0\n0 1 1\n1 0 0\n1 0 1\n1 1 0\n1 1 1\n' >8.xyz
 mr-make sphere --points 20 | mr-export -l points -f xyz - >20.xyz
 for n in 4 6 8 20; do
 	reconstruct $n.xyz 2>err
-	nearest 0.07
+	nearest 0.09
 done
 
 echo 'so few that handles hide, and a few that lie apart'

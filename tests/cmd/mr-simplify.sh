@@ -96,3 +96,16 @@ printf 'v 0 0 0\nv 0 2 0\nv 2 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 3 2 1\nf 4 6 5\n
 for weld in '' '--weld 0'; do
 	mr-import -q $weld two.obj | mr-simplify -q -n 1 | mr-info --json | grep -o '"faces":[0-9]*\|"area":[0-9.]*'
 done
+
+echo 'a texture of which each face has its own piece: the seams give way'
+mr-make sphere -n 1000 | mr-export -q -f obj - | awk '
+	/^v / { print }
+	/^f / {
+		x = n % 40 * 0.025
+		y = int(n * 0.025) * 0.025
+		n++
+		print "vt", x, y; print "vt", x + 0.02, y; print "vt", x, y + 0.02
+		printf "f %d/%d %d/%d %d/%d\n", $2, 3 * n - 2, $3, 3 * n - 1, $4, 3 * n
+	}' >pieces.obj
+mr-import -q pieces.obj | mr-simplify -n 100 2>err | mr-info | grep -c '100 faces\|corner_texcoord.* 100 rows'
+grep -c 'seams give way' err
