@@ -11,8 +11,9 @@
 #include "space/contact.h"
 #include "space/self_intersect.h"
 
-/* Longer loops are rims of an open surface: the share of its area that a circle of that length has. */
-static const double OPEN = 0.25;
+/* Longer loops, their teeth aside, are rims of an open surface: the share of its area that a circle of that
+ * length has. */
+static const double OPEN = 0.3;
 
 /* A loop that is filled. */
 typedef struct hole {
@@ -72,6 +73,29 @@ length_of(const filler *w, uint32_t loop)
 	return l;
 }
 
+/* The length without the teeth of triangles: of its edges' middles, taken again and again, as of a circle. */
+static double
+smooth_length(const filler *w, uint32_t loop)
+{
+	enum { ROUNDS = 8 };
+	size_t first = w->loops.start[loop], n = w->loops.start[loop + 1] - first;
+	MR_SCOPE(w->ctx);
+	mr_v3 *p = MR_NEW(w->ctx, n + 1, mr_v3);
+	double l = 0;
+
+	for (size_t k = 0; k < n; k++)
+		p[k] = w->m->p[mr_he_from(w->m, w->loops.he[first + k])];
+	for (int i = 0; i < ROUNDS; i++) {
+		p[n] = p[0];
+		for (size_t k = 0; k < n; k++)
+			p[k] = mr_lerp(0.5, p[k], p[k + 1]);
+	}
+	p[n] = p[0];
+	for (size_t k = 0; k < n; k++)
+		l += mr_dist(p[k], p[k + 1]);
+	return l / pow(cos(MR_PI / (double)n), ROUNDS);
+}
+
 /* Leaves out the loops of islands, which go with their hole. */
 static void
 find_islands(filler *w, const uint32_t *component, const bool *open)
@@ -106,9 +130,9 @@ choose_loops(filler *w)
 	w->next = MR_NEW(w->ctx, w->loops.count, uint32_t);
 	memset(w->next, 0xff, w->loops.count * sizeof *w->next);
 	for (uint32_t i = 0; i < w->loops.count; i++) {
-		double l = length_of(w, i),
+		double l = length_of(w, i), smooth = smooth_length(w, i),
 		       all = area[component[mr_he_from(m, w->loops.he[w->loops.start[i]])]];
-		open[i] = l * l > 4 * MR_PI * OPEN * all;
+		open[i] = smooth * smooth > 4 * MR_PI * OPEN * all;
 		if (most > 0 ? l <= most : w->o->loops > 0 || !open[i])
 			w->hole[w->n++] = (hole){ l, i };
 	}
@@ -579,29 +603,37 @@ settle(filler *w, bool *bad, mr_patches *out)
 }
 
 static void
+report_open(const filler *w, const char *why, size_t n, const uint32_t *vertex)
+{
+	mr_finding f = { .kind = MR_LIMIT, .layer = w->m->name };
+
+	if (n == 0)
+		return;
+	if (vertex) {
+		f.placed = true;
+		f.vertex = *vertex;
+		f.at = w->m->p[f.vertex];
+	}
+	f.what = mr_format(w->ctx, "open, %s: %zu", why, n);
+	mr_found(w->ctx, &f);
+}
+
+static void
 report(const filler *w, const bool *bad, mr_fill_result *r)
 {
-	mr_finding f = { .kind = MR_LIMIT, .layer = w->m->name, .placed = true };
+	uint32_t vertex = 0;
 
 	for (size_t l = w->n; l-- > 0;) {
 		size_t *count = bad[l] ? &r->crossing : &r->filled;
 		for (uint32_t i = w->hole[l].loop; i != MR_NONE; i = w->next[i])
 			++*count;
 		if (bad[l])
-			f.vertex = mr_he_from(w->m, w->loops.he[w->loops.start[w->hole[l].loop]]);
+			vertex = mr_he_from(w->m, w->loops.he[w->loops.start[w->hole[l].loop]]);
 	}
-	if (w->loops.broken)
-		mr_found(w->ctx, &(mr_finding){ .kind = MR_LIMIT,
-				     .layer = w->m->name,
-				     .what = mr_format(w->ctx,
-					 "open, as edges of three faces interrupt their boundary: %zu edges",
-					 w->loops.broken) });
-	if (r->crossing == 0)
-		return;
-	f.at = w->m->p[f.vertex];
-	f.what = mr_format(w->ctx, "open, as their filling would cross the surface: %zu of %zu holes",
-	    r->crossing, r->crossing + r->filled);
-	mr_found(w->ctx, &f);
+	report_open(w, "edges of three faces interrupt the boundary", w->loops.broken, NULL);
+	if (w->n == 0 && w->loops.broken == 0 && !(w->o->max_length > 0))
+		report_open(w, "rims of an open surface", w->loops.count, NULL);
+	report_open(w, "holes whose filling would cross the surface", r->crossing, &vertex);
 }
 
 static mr_mesh

@@ -15,11 +15,11 @@ typedef struct mr_patches {
 
 /* touching: of each vertex whether a loop that can be filled passes its place again by another vertex, in the
  * arena; NULL: none does. */
-mr_status mr_fill_touching(
-    mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, bool **touching) MR_WARN_UNUSED;
+mr_status
+mr_fill_touching(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, bool **touching) MR_WARN_UNUSED;
 
-/* Fills the boundary loops that the options choose, by default those no longer than a circle of a quarter of
- * their component's area, each with those of islands in it.  What no patch fills without crossing the surface
+/* Fills the boundary loops that the options choose, by default those no longer than a circle of 0.3 of their
+ * component's area, each with those of islands in it.  What no patch fills without crossing the surface
  * or a shorter loop's patch stays open, and is reported.  out: in the arena. */
 mr_status mr_fill(mr_ctx *ctx, const mr_mesh *m, const mr_fill_opts *o, mr_patches *out,
     mr_fill_result *result) MR_WARN_UNUSED;

