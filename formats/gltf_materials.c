@@ -25,12 +25,13 @@ read_image(mr_gltf *g, mr_gltf_looks *l, size_t number)
 	if (l->seen[number])
 		return MR_OK;
 	l->seen[number] = true;
+	l->left--;
 	MR_TRY(open_image(g, number, &b));
 	suffix = mr_is_png(b.data, b.bytes) ? ".png" : mr_is_jpeg(b.data, b.bytes) ? ".jpg" : NULL;
-	if (suffix) {
+	if (suffix)
 		l->file[number] = mr_file_copy(g->ctx, b.data, b.bytes, suffix);
-		l->left--;
-	}
+	else
+		l->left++;
 	return MR_OK;
 }
 

@@ -671,11 +671,30 @@ begin_vertices(obj *o)
 	return mr_rows_room(&o->rows, o->all[V]);
 }
 
+/* The text, each line that ends in a backslash after a number or a blank and the next as one: names may end
+ * so. */
+static const unsigned char *
+join_lines(mr_ctx *ctx, const unsigned char *data, size_t size)
+{
+	const unsigned char *end = data + size;
+	unsigned char *joined = NULL;
+
+	for (const unsigned char *p = data; p < end && (p = memchr(p, '\\', (size_t)(end - p))); p++) {
+		size_t left = (size_t)(end - p), n = left > 2 && p[1] == '\r' && p[2] == '\n' ? 3 : 2;
+		if (left < n || p[n - 1] != '\n' || p == data || !memchr("0123456789 \t", p[-1], 12))
+			continue;
+		if (!joined)
+			joined = memcpy(MR_NEW(ctx, size, unsigned char), data, size);
+		memset(joined + (p - data), ' ', n);
+	}
+	return joined ? joined : data;
+}
+
 mr_status
 mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	obj o = { .ctx = ctx,
-		.text = mr_scan_of(ctx, data, size),
+		.text = mr_scan_of(ctx, join_lines(ctx, data, size), size),
 		.rows.b = { .ctx = ctx, .ungrouped = "default" } };
 
 	find_blocks(&o);

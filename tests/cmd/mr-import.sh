@@ -15,6 +15,8 @@ g roof
 f -3 -2 -1
 X
 mr-import square.obj | show | tee square
+sed 's/^f 1 2 /&\\\n/; s/^v 1 0/&\\\r\n/' square.obj >lines.obj
+mr-import lines.obj | show | cmp - square
 
 echo '-- text'
 cat >file1 <<'X'

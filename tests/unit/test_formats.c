@@ -397,7 +397,6 @@ refusals(void **state)
 	refused("", "v 0 0 0\nv 1,5 0 0\n", "line 2: a vertex is '1,5', not a number");
 	refused("", "v nan 0 0\nv 0 -inf 0\n", "none of 2 points has a place");
 	refused("", "v 0 0 0\n\n?foo 1 2\n", "line 3: '?foo' begins no statement of OBJ");
-	refused("", "v 0 0 0\nv 0 \\\n 0 0\n", "line 2: a vertex is '\\', not a number");
 	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 13: vertex 3 of 3");
 	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 13: vertex -1 of 3");
 	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 14: ");
