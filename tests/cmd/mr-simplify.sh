@@ -109,3 +109,11 @@ mr-make sphere -n 1000 | mr-export -q -f obj - | awk '
 	}' >pieces.obj
 mr-import -q pieces.obj | mr-simplify -n 100 2>err | mr-info | grep -c '100 faces\|corner_texcoord.* 100 rows'
 grep -c 'seams give way' err
+
+echo 'two spheres, one just inside the other: each keeps its colour'
+for shell in '1 1 0 0' '0.96 0 0 1'; do
+	mr-make sphere -n 1000 | mr-export -q -f obj - |
+		awk -v shell="$shell" 'BEGIN { split(shell, s) } /^v / { print "v", s[1] * $2, s[1] * $3, s[1] * $4, s[2], s[3], s[4] } /^f / { print }' >shell.obj
+	mr-import shell.obj
+done | mr-cat --append | mr-simplify -q -n 60 | mr-split | mr-export -q 'shell%d.obj'
+for i in 1 2; do awk '/^v / { print $5, $6, $7 }' shell$i.obj | sort -u; done
