@@ -108,7 +108,8 @@ $(BUILD)/page/library.gz: $(BUILD)/page/library.wasm
 
 # The part of the library that the page runs, as WebAssembly, by the compiler that knows it.
 WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) $(addprefix lib/, \
-	$(addsuffix .c,$(addprefix base/,ctx rotation sort) $(addprefix mesh/,creases edges layers mesh weld zorder) \
+	$(addsuffix .c,$(addprefix base/,ctx rotation sort) \
+		$(addprefix mesh/,creases edges layers mesh scatter weld zorder) \
 		$(addprefix compact/,bit_planes coder control_code lifting packed packed_fields) \
 		$(addprefix edit/,correspondence deform deform_loose deform_stitch deform_system detail k_ring phong \
 			pose_basis smooth turns) \

@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include "base/vectors.h"
 #include "edit/correspondence.h"
-#include "edit/turns.h"
 #include "space/bvh.h"
 
 enum { GRAIN = 1024, LOOKS = 16, SOON = 16 };
@@ -394,19 +393,24 @@ turn_normals(void *arg, size_t begin, size_t end)
 		t->normal[v] = mr_turn_normal(&t->turn[v], t->rest[v]);
 }
 
+const mr_prepared *
+mr_detail_prepare(mr_ctx *ctx, const mr_mesh *rest)
+{
+	mr_prepared *r = MR_NEW(ctx, 1, mr_prepared);
+
+	*r = (mr_prepared){ MR_NEW(ctx, rest->nv, mr_v3), mr_scatter_make(ctx, rest) };
+	mr_vertex_normals(rest, r->normal);
+	return r;
+}
+
 /* Normals of the moved surface itself turn to and fro where it is crumpled, and tear what stands on them. */
 static void
 turn_frames(mr_ctx *ctx, const mr_mesh *rest, mr_v3 *normal, decoder *j)
 {
-	mr_v3 *made;
+	const mr_prepared *prepared = j->d->prepared ? j->d->prepared : mr_detail_prepare(ctx, rest);
 
-	j->rest = (mr_phong){ rest, j->d->rest_normal };
-	if (!j->rest.normal) {
-		made = MR_NEW(ctx, rest->nv, mr_v3);
-		mr_vertex_normals(rest, made);
-		j->rest.normal = made;
-	}
-	j->turn = mr_turns(ctx, rest, j->surface.m->p);
+	j->rest = (mr_phong){ rest, prepared->normal };
+	j->turn = mr_turns(ctx, rest, &prepared->scatter, j->surface.m->p);
 	mr_parallel(ctx, rest->nv, 4096, turn_normals, &(turner){ j->turn, j->rest.normal, normal });
 }
 

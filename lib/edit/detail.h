@@ -4,7 +4,14 @@
 #define MR_EDIT_DETAIL_H
 
 #include "edit/phong.h"
+#include "edit/turns.h"
 #include "space/source_map.h"
+
+/* What decoding takes of a base where it was encoded. */
+typedef struct mr_prepared {
+	mr_v3 *normal; /* of its vertices */
+	mr_scatter scatter;
+} mr_prepared;
 
 /* The columns mesh.detail_* and base.encoded: vertex i is b + h n + t1 o.x + t2 o.y + n o.z, b the point bary
  * of the triangle `face`, n its Phong normal, t1 and t2 as in mr_phong_frame; h or o is 0. */
@@ -12,9 +19,9 @@ typedef struct mr_detail {
 	size_t n;
 	mr_places at; /* on the base */
 	const double *height;
-	const mr_v3 *offset; /* NULL: every vertex has a height */
-	/* Positions of the base where it was encoded, and its normals there; NULL: to be made. */
-	const mr_v3 *rest, *rest_normal;
+	const mr_v3 *offset;         /* NULL: every vertex has a height */
+	const mr_v3 *rest;           /* positions of the base where it was encoded */
+	const mr_prepared *prepared; /* NULL: to be made */
 } mr_detail;
 
 /* Encodes the mesh over the base.  source: checked, or NULL: the base's nearest points.  MR_ERANGE where a
@@ -24,6 +31,9 @@ mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const
 
 /* MR_ERANGE where a face is not one of the base's, a place not within one, or a number not finite. */
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
+
+/* Of a base where it was encoded; in the arena. */
+const mr_prepared *mr_detail_prepare(mr_ctx *ctx, const mr_mesh *rest);
 
 /* Decodes d, checked, times gain, onto the base, normals and frames at rest turned as the base has around
  * them.  p: d->n, the caller's. */

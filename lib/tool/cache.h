@@ -3,12 +3,13 @@
 #define MR_TOOL_CACHE_H
 
 #include "edit/deform.h"
+#include "edit/detail.h"
 #include "subdivide/displaced.h"
 
-/* The normals of base where it was encoded: a delta mostly keeps them. */
+/* Base where it was encoded, prepared: a delta mostly keeps it. */
 typedef struct mr_rest_cache {
 	mr_ctx keep;
-	mr_v3 *normal;
+	const mr_prepared *prepared;
 	uint64_t triangles, encoded; /* the serials of these columns of base; 0: none */
 } mr_rest_cache;
 

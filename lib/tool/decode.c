@@ -6,23 +6,22 @@
 #include "space/carry.h"
 #include "tool/cache.h"
 
-/* The normals of base where it was encoded. */
-static const mr_v3 *
-rest_normals(mr_ctx *ctx, mr_rest_cache *kept, const mr_frame *f, mr_mesh rest)
+/* Base where it was encoded. */
+static const mr_prepared *
+prepared_at_rest(mr_ctx *ctx, mr_rest_cache *kept, const mr_frame *f, mr_mesh rest)
 {
 	uint64_t triangles = mr_frame_find(f, rest.name, "triangles")->serial,
 		 encoded = mr_frame_find(f, rest.name, "encoded")->serial;
 	mr_ctx *keep = mr_keep(ctx, &kept->keep);
 
 	if (!f->key && kept->triangles == triangles && kept->encoded == encoded)
-		return kept->normal;
+		return kept->prepared;
 	mr_ctx_free(keep);
 	kept->triangles = 0;
-	kept->normal = MR_NEW(keep, rest.nv, mr_v3);
-	mr_vertex_normals(&rest, kept->normal);
+	kept->prepared = mr_detail_prepare(keep, &rest);
 	kept->triangles = triangles;
 	kept->encoded = encoded;
-	return kept->normal;
+	return kept->prepared;
 }
 
 static mr_status
@@ -37,7 +36,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_rest_cache *
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
 	rest = base;
 	rest.p = detail.rest;
-	detail.rest_normal = rest_normals(ctx, kept, f, rest);
+	detail.prepared = prepared_at_rest(ctx, kept, f, rest);
 	p = MR_NEW(ctx, detail.n, mr_v3);
 	MR_TRY(mr_decode(ctx, &base, &detail, o->gain, p));
 	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));

@@ -121,7 +121,6 @@ posable_new(const parts *p)
 {
 	posable *s = calloc(1, sizeof *s);
 	mr_mesh rest;
-	mr_v3 *normal;
 
 	if (!s)
 		return NULL;
@@ -136,8 +135,7 @@ posable_new(const parts *p)
 	rest = s->base;
 	rest.p = s->detail.rest;
 	s->nv = (uint32_t)rest.nv, s->n = (uint32_t)s->detail.n;
-	s->detail.rest_normal = normal = MR_NEW(&s->ctx, s->nv, mr_v3);
-	mr_vertex_normals(&rest, normal);
+	s->detail.prepared = mr_detail_prepare(&s->ctx, &rest);
 	s->base_p = MR_NEW(&s->ctx, s->nv, mr_v3);
 	s->mesh_p = MR_NEW(&s->ctx, s->n, mr_v3);
 	return s;
