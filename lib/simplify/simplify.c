@@ -8,7 +8,8 @@
 #include "simplify/sectors.h"
 #include "simplify/sharp_edges.h"
 
-/* The shape that needles may have where the faces asked for cannot be had otherwise: thin plates, say. */
+/* The shape that needles may have where the faces asked for cannot be had otherwise, thin plates, say; and of
+ * textured surfaces, which are looked at: with needles a thin part takes no faces from the others. */
 static const double LAST_NEEDLE = 0.01;
 /* The weight of seams, which may move along the surface, where boundaries have 10. */
 static const double SEAM = 0.3;
@@ -39,7 +40,7 @@ typedef struct simplifier {
 	size_t fine;       /* faces at which the mesh is kept, lest the most be too few; 0: nowhere */
 	bool kept;         /* before there is room for any error */
 	size_t faces, merges;
-	size_t seams;         /* faces that seams had when they gave way; 0: they did not */
+	size_t seams;         /* faces that they would keep where they gave way; 0: they did not */
 	double longest;       /* edge to be merged, as long as there is room: beside long ones short ones of a
 	                         crease swing */
 	double error2;        /* greatest of the merges done */
@@ -227,17 +228,24 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		merge(s, h, &m);
 }
 
-/* Lets seams go that keep more faces than are asked for.  Whether there were some. */
+/* Whether there are seams that may give way for a number of faces. */
 static bool
-give_up_seams(simplifier *s)
+may_give_way(const simplifier *s)
 {
-	if (!s->ties->face || s->ties->fixed || !s->d.curve || s->target == 0)
-		return false;
+	return s->ties->face && !s->ties->fixed && s->d.curve && s->target > 0;
+}
+
+/* Lets seams go that keep so many faces.  Values jump across them: what is merged there has no field. */
+static void
+give_up_seams(simplifier *s, size_t faces)
+{
 	s->d.curve = NULL;
-	for (size_t v = 0; v < s->d.nv; v++)
+	s->seams = faces;
+	for (size_t v = 0; v < s->d.nv; v++) {
 		s->d.kind[v] = s->d.kind[v] == MR_DEAD ? MR_DEAD : MR_SMOOTH;
-	s->seams = s->faces;
-	return true;
+		if (s->site[v].field)
+			*s->site[v].field = (mr_field){ .weight = 0 };
+	}
 }
 
 /* Lets errors be larger, where there are more faces than the most, or needles be thinner; each once, for the
@@ -256,7 +264,10 @@ relax(simplifier *s)
 		return true;
 	}
 	s->needle = LAST_NEEDLE;
-	return first || give_up_seams(s);
+	if (first || !may_give_way(s))
+		return first;
+	give_up_seams(s, s->faces);
+	return true;
 }
 
 /* Adds the plane of face f to its corners, a third of the area each. */
@@ -333,7 +344,7 @@ add_quadrics(simplifier *s)
 		mr_v3 cross = mr_dyn_cross(d, d->p, f), normal = mr_unit(cross);
 		double weight = weight_of(s, f);
 		add_face(s, f, normal, weight * mr_norm(cross) / 2);
-		if (s->ties->values)
+		if (s->ties->values && !s->seams)
 			add_field(s, f, weight * mr_norm(cross) / 2);
 		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
 			if (d->twin[h] == MR_NONE || mr_dyn_on_curve(d, h))
@@ -405,9 +416,28 @@ find_sharp_edges(simplifier *s, const mr_mesh *m)
 		s->longest = 1.5 * edge;
 }
 
+/* Pieces that the curves part. */
+static size_t
+count_charts(const simplifier *s)
+{
+	MR_SCOPE(s->ctx);
+	const mr_dyn *d = &s->d;
+	uint32_t *set = mr_sets_new(s->ctx, d->nf);
+	size_t n = 0;
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (d->twin[h] != MR_NONE && !mr_dyn_on_curve(d, h))
+			mr_sets_join(set, h / 3, d->twin[h] / 3);
+	for (uint32_t f = 0; f < d->nf; f++)
+		n += set[f] == f;
+	return n;
+}
+
 static mr_status
 begin(simplifier *s, const mr_mesh *m)
 {
+	size_t charts;
+
 	MR_TRY(copy_mesh(s, m));
 	s->site = MR_NEW_ZERO(s->ctx, s->d.nv, mr_site);
 	s->onto = mr_sets_new(s->ctx, s->d.nv);
@@ -428,6 +458,8 @@ begin(simplifier *s, const mr_mesh *m)
 	}
 	if (s->fine)
 		s->most = 0;
+	if (may_give_way(s) && (charts = count_charts(s)) > s->target)
+		give_up_seams(s, charts);
 	add_quadrics(s);
 	mr_buckets_new(s->ctx, 3 * s->d.nf, &s->queue);
 	return MR_OK;
@@ -658,7 +690,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, const m
 		.o = opts,
 		.ties = ties ? ties : &none,
 		.m = m,
-		.needle = MR_NEEDLE,
+		.needle = ties && ties->face ? LAST_NEEDLE : MR_NEEDLE,
 		.longest = INFINITY,
 		.scale = diagonal > 0 ? ldexp(1, -(int)fmax(-1000, ilogb(diagonal)))
 		                      : 1, /* a number for any */
