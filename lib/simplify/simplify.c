@@ -9,7 +9,7 @@
 #include "simplify/sharp_edges.h"
 
 /* The shape that needles may have where the faces asked for cannot be had otherwise, thin plates, say; and of
- * textured surfaces, which are looked at: with needles a thin part takes no faces from the others. */
+ * meshes, which are looked at: with needles a thin part takes no faces from the others. */
 static const double LAST_NEEDLE = 0.01;
 /* The weight of seams, which may move along the surface, where boundaries have 10. */
 static const double SEAM = 0.3;
@@ -690,7 +690,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, const m
 		.o = opts,
 		.ties = ties ? ties : &none,
 		.m = m,
-		.needle = ties && ties->face ? LAST_NEEDLE : MR_NEEDLE,
+		.needle = ties && ties->needles ? LAST_NEEDLE : MR_NEEDLE,
 		.longest = INFINITY,
 		.scale = diagonal > 0 ? ldexp(1, -(int)fmax(-1000, ilogb(diagonal)))
 		                      : 1, /* a number for any */

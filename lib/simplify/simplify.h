@@ -26,6 +26,7 @@ typedef struct mr_simplify_ties {
 	const double
 	    *value;    /* `values` of each corner, as lengths by which the surface seems moved; NaN: none */
 	size_t values; /* at most MR_VALUES */
+	bool needles;  /* whether faces may be such */
 } mr_simplify_ties;
 
 /*

@@ -252,6 +252,7 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
 		limit_by_frame(ctx, &surface, &points, &o);
 	onto = MR_NEW(ctx, surface.nv, uint32_t);
+	ties.needles = !o.to && !strcmp(layer, "mesh");
 	if (!o.to && !marks && mr_layer_carries(f, layer)) {
 		ties.face = &face;
 		MR_TRY(mr_layer_seams(ctx, f, &surface, &seam));
