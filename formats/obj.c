@@ -1,6 +1,8 @@
 /* Wavefront OBJ.  Blocks of lines are read at once, then joined in order.  tinyobj reads faces, through
  * obj_shim, except plain indices, once their line is checked: it takes any word for an index.  v, vt and vn
  * lines, whose numbers must be exact, and names with blanks are read here. */
+#include <ctype.h>
+
 #include "base/parallel.h"
 #include "formats/format.h"
 #include "formats/obj_shim.h"
@@ -681,7 +683,8 @@ join_lines(mr_ctx *ctx, const unsigned char *data, size_t size)
 
 	for (const unsigned char *p = data; p < end && (p = memchr(p, '\\', (size_t)(end - p))); p++) {
 		size_t left = (size_t)(end - p), n = left > 2 && p[1] == '\r' && p[2] == '\n' ? 3 : 2;
-		if (left < n || p[n - 1] != '\n' || p == data || !memchr("0123456789 \t", p[-1], 12))
+		if (left < n || p[n - 1] != '\n' || p == data ||
+		    !(isdigit(p[-1]) || mr_is_blank((char)p[-1])))
 			continue;
 		if (!joined)
 			joined = memcpy(MR_NEW(ctx, size, unsigned char), data, size);
