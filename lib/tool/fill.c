@@ -211,13 +211,9 @@ put(filled *w, mr_frame *f, const char *layer)
 static mr_status
 join_vertices(mr_ctx *ctx, mr_frame *f, const mr_fill_opts *o, mr_mesh *m)
 {
-	mr_loops loops;
 	bool *touching;
 	size_t joined;
 
-	mr_loops_find(ctx, m, &loops);
-	if (loops.count == 0)
-		return MR_OK;
 	if (!strcmp(m->name, "mesh"))
 		MR_TRY(mr_layer_join_seams(ctx, f, m));
 	MR_TRY(mr_fill_touching(ctx, m, o, &touching));
@@ -234,11 +230,16 @@ fill(mr_ctx *ctx, mr_frame *f, const mr_fill_opts *o, mr_fill_result *r)
 	const char *layer;
 	mr_mesh m;
 	filled w = { .ctx = ctx, .m = &m };
+	mr_loops loops;
 
 	MR_TRY(mr_check_number(ctx, "max_length", o->max_length, 0, 1e300));
 	MR_TRY(mr_check_number(ctx, "order", (double)o->order, 1, 3));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	mr_loops_find(ctx, &m, &loops);
+	*r = (mr_fill_result){ 0 };
+	if (loops.count + loops.broken == 0)
+		return mr_layer_worked(ctx, f, layer);
 	MR_TRY(join_vertices(ctx, f, o, &m));
 	MR_TRY(mr_prefix(ctx, mr_fill(ctx, &m, o, &w.s, r), "%s", layer));
 	if (r->filled == 0)
