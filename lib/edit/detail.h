@@ -7,7 +7,7 @@
 #include "edit/turns.h"
 #include "space/source_map.h"
 
-/* What decoding takes of a base where it was encoded. */
+/* The undeformed base, as decoding uses it. */
 typedef struct mr_prepared {
 	mr_v3 *normal; /* of its vertices */
 	mr_scatter scatter;
@@ -32,7 +32,7 @@ mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const
 /* MR_ERANGE where a face is not one of the base's, a place not within one, or a number not finite. */
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
 
-/* Of a base where it was encoded; in the arena. */
+/* rest: the undeformed base.  In the arena. */
 const mr_prepared *mr_detail_prepare(mr_ctx *ctx, const mr_mesh *rest);
 
 /* Decodes d, checked, times gain, onto the base, normals and frames at rest turned as the base has around

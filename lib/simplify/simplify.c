@@ -662,7 +662,7 @@ merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 		keep(s, out, onto, r);
 }
 
-/* Where faces are left, or seams gave way. */
+/* Reports that too many faces are left, or that seams gave way. */
 static void
 report(const simplifier *s, size_t nf)
 {
