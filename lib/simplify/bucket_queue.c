@@ -30,6 +30,9 @@ void
 mr_buckets_clear(mr_buckets *b, size_t n)
 {
 	memset(b->prev, 0xff, n * sizeof *b->prev);
+	memset(b->head, 0xff, MR_BUCKETS * sizeof *b->head);
+	memset(b->bits, 0, sizeof b->bits);
+	memset(b->words, 0, sizeof b->words);
 }
 
 mr_buckets *

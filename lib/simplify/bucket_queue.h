@@ -24,8 +24,7 @@ void mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out);
 /* An empty queue for other items of the same numbers, in the arena: none is ever in both. */
 mr_buckets *mr_buckets_beside(mr_ctx *ctx, const mr_buckets *b);
 
-/* Forgets the n items of all queues that share their numbers, whose buckets must not be used again but b's,
- * which is empty. */
+/* Forgets the n items of all queues that share their numbers, of which only b is used again: it is empty. */
 void mr_buckets_clear(mr_buckets *b, size_t n);
 
 /* The lowest bucket that is not empty; MR_BUCKETS where all are. */

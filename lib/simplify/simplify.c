@@ -523,7 +523,7 @@ keep(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 enum { BLOCK = 1 << 14 };
 
 /* How many times as many faces as in the end the blocks are left with: the borders between them are finer. */
-static const double SPARE = 8;
+static const double SPARE = 2;
 /* Buckets by which costs double: the blocks' merges keep step with each other. */
 enum { DOUBLED = 128 };
 
@@ -557,14 +557,14 @@ find_inner(const simplifier *s, size_t *between)
 	memset(inner, 1, d->nv);
 	for (size_t f = 0; f < d->nf; f++) {
 		const uint32_t *v = &d->v[3 * f];
-		if (v[0] / BLOCK == v[1] / BLOCK && v[1] / BLOCK == v[2] / BLOCK)
+		if (mr_dyn_face_dead(d, f) || (v[0] / BLOCK == v[1] / BLOCK && v[1] / BLOCK == v[2] / BLOCK))
 			continue;
 		inner[v[0]] = inner[v[1]] = inner[v[2]] = 0;
 	}
 	*between = 0;
 	for (size_t f = 0; f < d->nf; f++) {
 		const uint32_t *v = &d->v[3 * f];
-		*between += !inner[v[0]] || !inner[v[1]] || !inner[v[2]];
+		*between += !mr_dyn_face_dead(d, f) && (!inner[v[0]] || !inner[v[1]] || !inner[v[2]]);
 	}
 	return inner;
 }
@@ -578,7 +578,7 @@ divide(simplifier *s, size_t n, size_t *between)
 
 	for (size_t i = 0; i < n; i++) {
 		part[i] = *s;
-		part[i].faces = 0;
+		part[i].faces = part[i].merges = 0;
 		part[i].inner = inner;
 		part[i].queue = mr_buckets_beside(s->ctx, s->queue);
 	}
@@ -591,12 +591,12 @@ divide(simplifier *s, size_t n, size_t *between)
 	return part;
 }
 
-/* Adds up what the blocks have done so far. */
+/* Adds up what the blocks have done so far.  start: what was there before them. */
 static void
-gather(simplifier *s, const simplifier *part, size_t n)
+gather(simplifier *s, const simplifier *start, const simplifier *part, size_t n)
 {
-	s->merges = 0;
-	s->faces = s->d.nf;
+	s->merges = start->merges;
+	s->faces = start->faces;
 	for (size_t i = 0; i < n; i++) {
 		s->merges += part[i].merges;
 		s->faces += part[i].faces; /* less than nothing, modulo 2^64 */
@@ -621,7 +621,8 @@ static void
 merge_in_blocks(simplifier *s)
 {
 	size_t n = (s->d.nv + BLOCK - 1) / BLOCK, most = s->target > s->most ? s->target : s->most, between;
-	double enough = SPARE * (double)(most > s->fine ? most : s->fine);
+	double enough = SPARE * (double)(!s->kept && s->fine ? s->fine : most);
+	simplifier start = *s;
 	blocks w = { 0 };
 
 	if (n < 3 || (double)s->faces <= enough)
@@ -632,13 +633,26 @@ merge_in_blocks(simplifier *s)
 	for (; (double)s->faces > enough && (w.level = lowest_of(w.part, n)) < MR_BUCKETS;) {
 		w.level += DOUBLED;
 		mr_parallel(s->ctx, n, 1, serve_blocks, &w);
-		gather(s, w.part, n);
+		gather(s, &start, w.part, n);
 		mr_progress(s->ctx, "merging", (double)s->merges / (double)(s->d.nv - s->target / 2));
 	}
 	mr_buckets_clear(s->queue, 3 * s->d.nf);
 }
 
-/* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged. */
+/* Keeps the mesh that is fine enough for any points; then there is room for errors. */
+static void
+keep_fine(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
+{
+	keep(s, out, onto, r);
+	s->kept = true;
+	s->most = s->o->most;
+	mr_buckets_clear(s->queue, 3 * s->d.nf);
+	merge_in_blocks(s);
+	fill_queue(s);
+}
+
+/* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged, but
+ * once where a fine mesh is kept: again and again would take another hundredth of the faces. */
 static void
 merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 {
@@ -651,13 +665,10 @@ merge_all(simplifier *s, mr_mesh *out, uint32_t *onto, mr_simplify_result *r)
 		fill_queue(s);
 		while (s->faces > s->target && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE) {
 			serve(s, h, bucket);
-			if (!s->kept && s->faces <= s->fine) {
-				keep(s, out, onto, r);
-				s->kept = true;
-				s->most = s->o->most;
-			}
+			if (!s->kept && s->faces <= s->fine)
+				keep_fine(s, out, onto, r);
 		}
-	} while (s->faces > s->target && (s->merges > before || relax(s)));
+	} while (s->faces > s->target && ((s->merges > before && !s->kept) || relax(s)));
 	if (!s->kept || s->faces <= s->o->most)
 		keep(s, out, onto, r);
 }
