@@ -103,33 +103,6 @@ length_of(const mr_sparse *a, size_t row)
 	return (size_t)(a->start[row + 1] - a->start[row]);
 }
 
-typedef struct basis_job {
-	const mr_fit_surface *s;
-	const mr_sparse *patch;
-	double *basis;
-} basis_job;
-
-static void
-spread_basis(void *arg, size_t begin, size_t end)
-{
-	const basis_job *j = arg;
-	const mr_sparse *s = &j->s->s;
-
-	for (size_t f = begin; f < end; f++) {
-		size_t n = length_of(j->patch, f);
-		double *to = j->basis + MR_FIT_SLOTS * (size_t)j->patch->start[f];
-		uint32_t slot[MR_FIT_SLOTS];
-		mr_fit_slots(j->s, f, slot);
-		for (size_t i = 0; i < MR_FIT_SLOTS; i++)
-			for (int e = s->start[slot[i]], k = j->patch->start[f]; e < s->start[slot[i] + 1];
-			     e++) {
-				while (j->patch->index[k] != s->index[e])
-					k++;
-				to[i * n + (size_t)(k - j->patch->start[f])] = s->value[e];
-			}
-	}
-}
-
 /* With valence 6 each face has some 300 pairs. */
 static mr_status
 check_valences(mr_ctx *ctx, const mr_sparse *patch)
@@ -160,8 +133,6 @@ mr_fit_system_build(
 	MR_TRY(couple(ctx, &r.patch, &r.star, &r.a));
 	MR_TRY(mr_sparse_transpose(ctx, &r.star, nv, &r.around));
 	MR_TRY(mr_sparse_multiply(ctx, &r.around, &r.star, nv, &r.bending));
-	r.basis = MR_NEW_ZERO(ctx, MR_FIT_SLOTS * (size_t)r.patch.start[r.patch.n], double);
-	mr_parallel(ctx, (size_t)r.patch.n, GRAIN, spread_basis, &(basis_job){ surface, &r.patch, r.basis });
 	r.b = MR_NEW(ctx, nv, mr_v3);
 	r.block = MR_NEW(ctx, (size_t)r.a.start[nv], mr_fit_block);
 	*system = r;
@@ -202,17 +173,22 @@ typedef struct fill_job {
 	double *row;        /* the same: workspace */
 } fill_job;
 
-/* The row of a point over its control face's list. */
+/* The row of a point over the n vertices of its control face, `index`. */
 static void
-row_of(const double *basis, size_t n, const mr_fit_foot *foot, double *row)
+row_of(const mr_fit_surface *s, const int *index, size_t n, const mr_fit_foot *foot, double *row)
 {
-	const double *node = basis + (size_t)(foot->patch % MR_FIT_PATCHES) * MR_FIT_PATCH * n;
+	uint32_t node[MR_FIT_PATCH];
 	double w[MR_FIT_PATCH];
 
+	memset(row, 0, n * sizeof *row);
+	mr_fit_nodes(s, foot->patch, node);
 	mr_fit_weights(foot->bary, w);
-	for (size_t i = 0; i < n; i++)
-		row[i] = w[0] * node[i] + w[1] * node[n + i] + w[2] * node[2 * n + i] +
-		         w[3] * node[3 * n + i] + w[4] * node[4 * n + i] + w[5] * node[5 * n + i];
+	for (int i = 0; i < MR_FIT_PATCH; i++)
+		for (int e = s->s.start[node[i]], k = 0; e < s->s.start[node[i] + 1]; e++) {
+			while (index[k] != s->s.index[e])
+				k++;
+			row[k] += w[i] * s->s.value[e];
+		}
 }
 
 /* The direction in which a point's distance counts in full: the normal, or towards the point if the foot is
@@ -264,7 +240,7 @@ fill_patches(void *arg, size_t begin, size_t end)
 		for (size_t i = j->start[f]; i < j->start[f + 1]; i++) {
 			uint32_t k = j->order[i];
 			mr_v3 normal, r = mr_sub(j->point[k], mr_fit_place(s->surface, &j->foot[k], &normal));
-			row_of(s->basis + MR_FIT_SLOTS * at, n, &j->foot[k], j->row + at);
+			row_of(s->surface, s->patch.index + at, n, &j->foot[k], j->row + at);
 			add_point(j->row + at, n, j->scale * j->w[k], r, direction_of(normal, r), pair,
 			    j->sum + at);
 		}

@@ -38,7 +38,6 @@ typedef struct mr_fit_system {
 	mr_v3 *home;                     /* the control vertices to begin with */
 	double form;                     /* the share of how they were bent that is no bending */
 	mr_sparse patch;                 /* of each control face: the vertices that its surface depends on */
-	double *basis;                   /* of each control face: 24 nodes x its vertices */
 	mr_sparse star, around, bending; /* L, its transpose, and L^T L */
 	mr_sparse a;                     /* positive definite */
 	mr_fit_block *block;             /* of each entry of a: of trace 0 */
