@@ -12,6 +12,8 @@ static const cmd_opt table[] = {
 	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
 	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",
 	    "what to rebuild the mesh from (default: the layer worked on last)", NULL },
+	{ 0, "mend", CMD_CHOICE, &opts.mend, 0, 0, "keys|all|none",
+	    "frames to mend where detail folds or meets itself: of a sequence the first, all, none", NULL },
 	{ 0, "no-check", CMD_FLAG, &blind, 0, 0, "", "do not look for folds and intersections", NULL },
 	{ 0 },
 };

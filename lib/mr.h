@@ -512,13 +512,18 @@ typedef enum mr_decode_source {
 	MR_FROM_CONTROL
 } mr_decode_source;
 
+/* The frames whose mesh is mended where its detail folds or meets itself on the posed base: those that begin a
+ * sequence, or stand alone; all; none. */
+typedef enum mr_mended { MR_MEND_KEYS, MR_MEND_ALL, MR_MEND_NONE } mr_mended;
+
 typedef struct mr_decode_opts {
 	double gain;  /* multiplies the detail */
 	int from;     /* mr_decode_source */
 	size_t level; /* subdivisions of the control mesh; MR_UNKNOWN: as many as have heights */
+	int mend;     /* mr_mended */
 } mr_decode_opts;
 
-#define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN)
+#define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN, MR_MEND_KEYS)
 
 MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache) MR_WARN_UNUSED;
 

@@ -428,6 +428,25 @@ mr_decode(mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_
 	return MR_OK;
 }
 
+static void
+rest_piece(void *arg, size_t begin, size_t end)
+{
+	const decoder *j = arg;
+
+	for (size_t i = begin; i < end; i++)
+		j->p[i] = displaced(&j->rest, j->d, i);
+}
+
+void
+mr_detail_at_rest(mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, mr_v3 *p)
+{
+	mr_mesh rest = *base;
+
+	rest.p = d->rest;
+	mr_parallel(ctx, d->n, 4096, rest_piece,
+	    &(decoder){ .rest = { &rest, d->prepared->normal }, .d = d, .p = p });
+}
+
 /* The columns */
 
 mr_status

@@ -39,6 +39,9 @@ const mr_prepared *mr_detail_prepare(mr_ctx *ctx, const mr_mesh *rest);
  * them.  p: d->n, the caller's. */
 mr_status mr_decode(mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p);
 
+/* The mesh as it was encoded.  d: checked and prepared.  p: d->n, the caller's. */
+void mr_detail_at_rest(mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, mr_v3 *p);
+
 /* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
 mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);
 

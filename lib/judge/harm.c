@@ -310,7 +310,8 @@ count_pair(void *arg, uint32_t f, uint32_t g)
 
 /* More pairs than there were: where a surface intersects already, others go while some come. */
 static void
-count_pairs(mr_ctx *ctx, const crowd *c, uint32_t *near_harm, uint32_t *far_harm, mr_harm *h)
+count_pairs(
+    mr_ctx *ctx, const crowd *c, uint32_t *near_harm, uint32_t *far_harm, uint32_t *before, mr_harm *h)
 {
 	const double deep = 0.001 * c->m->diagonal;
 	uint32_t *part;
@@ -322,7 +323,7 @@ count_pairs(mr_ctx *ctx, const crowd *c, uint32_t *near_harm, uint32_t *far_harm
 	mr_intersections_visit(ctx, NULL, &c->now, count_pair, &came);
 	if (!came.near && !came.far)
 		return;
-	went = (tally){ &c->now, &c->then, part, deep, NULL, NULL, 0, 0 };
+	went = (tally){ &c->now, &c->then, part, deep, before, before, 0, 0 };
 	mr_intersections_visit(ctx, NULL, &c->then, count_pair, &went);
 	h->pairs = less(came.near, went.near);
 	h->far = less(came.far, went.far);
@@ -383,23 +384,36 @@ keep_faces(mr_ctx *ctx, crowd *c, mr_tri *t, size_t n)
 	c->now.p = now;
 }
 
+/* Marks the corners of faces with more harm than before (NULL: none). */
 static void
-look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
+mark(const crowd *c, const uint32_t *harm, const uint32_t *before, uint8_t how, uint8_t *marks)
+{
+	for (size_t i = 0; marks && i < 3 * c->now.nf; i++)
+		if (harm[i / 3] > (before ? before[i / 3] : 0))
+			marks[c->vertex[c->now.t[i / 3].v[i % 3]]] |= how;
+}
+
+static void
+look_at_crowd(mr_ctx *ctx, crowd *c, uint8_t *marks, mr_harm *harm)
 {
 	mr_tri *t = MR_NEW(ctx, c->now.nf, mr_tri);
-	uint32_t *near_harm, *far_harm;
+	uint32_t *near_harm, *far_harm, *before;
 
 	keep_faces(ctx, c, t, list_faces(ctx, c, t));
 	near_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	far_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
+	before = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	count_folds(ctx, c, near_harm, &harm->folds);
-	count_pairs(ctx, c, near_harm, far_harm, harm);
+	mark(c, near_harm, NULL, MR_HARM_FOLD, marks);
+	count_pairs(ctx, c, near_harm, far_harm, before, harm);
+	mark(c, near_harm, before, MR_HARM_NEAR, marks);
+	mark(c, far_harm, before, MR_HARM_FAR, marks);
 	harm->vertex = worst_vertex(c, near_harm);
 	harm->far_vertex = worst_vertex(c, far_harm);
 }
 
 void
-mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
+mr_harm_find(mr_ctx *ctx, const mr_motion *m, uint8_t *marks, mr_harm *harm)
 {
 	const double share = 0.02;
 	MR_SCOPE(ctx);
@@ -418,5 +432,5 @@ mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 			mark_cell(&c.turned, c.now.p[v]);
 	mark_gathered(ctx, &c);
 	if (c.turned.any || c.gathered.any || c.now.nf <= FEW)
-		look_at_crowd(ctx, &c, harm);
+		look_at_crowd(ctx, &c, marks, harm);
 }

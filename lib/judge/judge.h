@@ -49,14 +49,24 @@ typedef struct mr_harm {
 } mr_harm;
 
 /* Looked for where the surface may touch itself: in cells of space that hold a face which turned against
- * those around it, or vertices that were far apart. */
-void mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm);
+ * those around it, or vertices that were far apart.  marks: of the vertices (NULL: not wanted): sets
+ * those of corners of faces that are folded, or meet near or far ones, more than they did. */
+enum { MR_HARM_NEAR = 1, MR_HARM_FOLD = 2, MR_HARM_FAR = 4 };
+void mr_harm_find(mr_ctx *ctx, const mr_motion *m, uint8_t *marks, mr_harm *harm);
+
+/* Whether so many folds, or near pairs, of nf faces are to be told of. */
+bool mr_harm_folds(const mr_harm *h, size_t nf);
+bool mr_harm_crosses(const mr_harm *h, size_t nf);
 
 /* Whether faces f and g stand to each other as they did: where they touch, rounding decides the rest. */
 bool mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g);
 
 /* Folds and intersections that came. */
 void mr_judge_harm(mr_ctx *ctx, const mr_motion *m);
+
+/* Parts that are nearer to each other than the first touch, and are apart beyond the second: shares of the
+ * diagonal. */
+static const double MR_TOUCH = 0.003, MR_APART_BY = 0.005;
 
 /* Parts that touched and do not any more.  *closed: whether the surface has no boundary. */
 void mr_judge_contacts(mr_ctx *ctx, const mr_motion *m, bool *closed);

@@ -408,21 +408,30 @@ width_of(const mr_mesh *m, uint32_t v, mr_place at)
 	return mr_dist(m->p[v], mr_place_point(m, at));
 }
 
+double
+mr_contact_widened(
+    const mr_contacts *contacts, const mr_mesh *m, const mr_v3 *after, double width, uint32_t v)
+{
+	mr_mesh moved = *m;
+	double widened = 0;
+
+	moved.p = after;
+	for (size_t i = contacts->start[v]; i < contacts->start[v + 1]; i++)
+		if (width_of(m, v, contacts->at[i]) <= width)
+			widened = fmax(widened, width_of(&moved, v, contacts->at[i]));
+	return widened;
+}
+
 size_t
 mr_contacts_open(
     const mr_contacts *contacts, const mr_mesh *m, const mr_v3 *after, double width, uint32_t *widest)
 {
-	mr_mesh moved = *m;
 	double most = 0;
 	size_t n = 0;
 
-	moved.p = after;
 	*widest = MR_NONE;
 	for (uint32_t v = 0; v < m->nv; v++) {
-		double widened = 0;
-		for (size_t i = contacts->start[v]; i < contacts->start[v + 1]; i++)
-			if (width_of(m, v, contacts->at[i]) <= width)
-				widened = fmax(widened, width_of(&moved, v, contacts->at[i]));
+		double widened = mr_contact_widened(contacts, m, after, width, v);
 		n += widened > width;
 		if (widened > fmax(width, most)) {
 			most = widened;

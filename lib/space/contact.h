@@ -31,6 +31,11 @@ typedef struct mr_contacts {
 /* The vertices of m with points of other components within `reach`, or at a slit.  contacts: in the arena. */
 void mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts);
 
+/* How wide the widest contact of v is after the vertices of m have gone to `after`, of those that were no
+ * wider than `width` before; 0 without any. */
+double mr_contact_widened(
+    const mr_contacts *contacts, const mr_mesh *m, const mr_v3 *after, double width, uint32_t v);
+
 /*
  * How many vertices have a contact wider than `width` after the vertices of m have gone to `after`, that was
  * not before.  *widest: the vertex of the widest of them, MR_NONE without any.

@@ -3,6 +3,7 @@
 #include "base/options.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
+#include "judge/mend.h"
 #include "space/carry.h"
 #include "tool/cache.h"
 
@@ -24,6 +25,44 @@ prepared_at_rest(mr_ctx *ctx, mr_rest_cache *kept, const mr_frame *f, mr_mesh re
 	return kept->prepared;
 }
 
+/* The vertices that constraints have; NULL without any. */
+static mr_status
+find_held(mr_ctx *ctx, mr_frame *f, size_t nv, bool **held)
+{
+	const uint32_t *region;
+
+	*held = NULL;
+	if (!mr_layer_has(f, "mesh", "region"))
+		return MR_OK;
+	MR_TRY(mr_layer_region(ctx, f, "mesh", nv, &region));
+	*held = MR_NEW(ctx, nv, bool);
+	for (size_t v = 0; v < nv; v++)
+		(*held)[v] = region[v] != MR_REGION_FREE;
+	return MR_OK;
+}
+
+/* Mends what has come of the mesh by a pose of base.  p: its positions as decoded. */
+static mr_status
+mend(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d, mr_v3 *p)
+{
+	mr_v3 *rest;
+	mr_mesh mesh;
+	bool *held;
+	size_t n;
+
+	if (!mr_layer_has(f, "mesh", "triangles") || !memcmp(base->p, d->rest, base->nv * sizeof *base->p))
+		return MR_OK;
+	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, "mesh", &mesh));
+	MR_TRY(find_held(ctx, f, mesh.nv, &held));
+	rest = MR_NEW(ctx, d->n, mr_v3);
+	mr_detail_at_rest(ctx, base, d, rest);
+	mesh.p = rest;
+	n = mr_mend(ctx, &mesh, held, p);
+	if (n > 0)
+		mr_note(ctx, "%zu vertices go along with those around, lest the mesh fold or meet itself", n);
+	return MR_OK;
+}
+
 static mr_status
 decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_rest_cache *kept)
 {
@@ -39,6 +78,8 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_rest_cache *
 	detail.prepared = prepared_at_rest(ctx, kept, f, rest);
 	p = MR_NEW(ctx, detail.n, mr_v3);
 	MR_TRY(mr_decode(ctx, &base, &detail, o->gain, p));
+	if (o->gain == 1 && (o->mend == MR_MEND_ALL || (o->mend == MR_MEND_KEYS && f->key)))
+		MR_TRY(mend(ctx, f, &base, &detail, p));
 	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));
 	return mr_layer_followed(ctx, f, "base");
 }
@@ -167,6 +208,7 @@ decode(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
 
 	MR_TRY(mr_check_number(ctx, "gain", o->gain, -1e6, 1e6));
 	MR_TRY(mr_check_choice(ctx, "from", o->from, MR_FROM_CONTROL));
+	MR_TRY(mr_check_choice(ctx, "mend", o->mend, MR_MEND_NONE));
 	MR_TRY(choose(ctx, f, o, &from));
 	if (from == MR_FROM_DETAIL)
 		MR_TRY(decode_detail(ctx, f, o, &cache->rest));

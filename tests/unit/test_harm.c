@@ -1,5 +1,6 @@
 /* Folds and intersections that a motion makes, and those that it does not. */
 #include "judge/judge.h"
+#include "judge/mend.h"
 #include "shapes.h"
 
 static mr_harm
@@ -8,7 +9,7 @@ harm_of(const mr_mesh *m, const mr_v3 *after)
 	mr_motion motion = mr_motion_of(&ctx, m, after);
 	mr_harm harm;
 
-	mr_harm_find(&ctx, &motion, &harm);
+	mr_harm_find(&ctx, &motion, NULL, &harm);
 	return harm;
 }
 
@@ -145,6 +146,96 @@ test_touching(void **state)
 	assert_true(h.folds == 0 && h.pairs == 0 && h.far == 0);
 }
 
+/* Bends a lattice along x by a radian every 20 edges. */
+static mr_v3
+bent(mr_v3 p)
+{
+	return mr_vec(20 * sin(p.x / 20), p.y, 20 - (20 + p.z) * cos(p.x / 20));
+}
+
+/* Vertices that a bend has brought beyond their far neighbours come back to where it has them. */
+static void
+test_mended(void **state)
+{
+	mr_mesh m = lattice(24);
+	const uint32_t v = 25 * 12 + 12;
+	mr_v3 *p = copy_of(&m), *was;
+	mr_harm h;
+	size_t n;
+
+	(void)state;
+	for (size_t i = 0; i < m.nv; i++)
+		p[i] = bent(m.p[i]);
+	for (uint32_t i = v; i < v + 3; i += 2)
+		p[i] = bent(mr_add(m.p[i], mr_vec(1.5, 0, 0)));
+	assert_true(harm_of(&m, p).folds > 5);
+	was = MR_NEW(&ctx, m.nv, mr_v3);
+	memcpy(was, p, m.nv * sizeof *p);
+	n = mr_mend(&ctx, &m, NULL, p);
+	h = harm_of(&m, p);
+	assert_true(h.folds == 0 && h.pairs == 0);
+	assert_true(n > 30 && n < m.nv / 2);
+	for (size_t i = 0; i < m.nv; i++) {
+		assert_true(mr_dist(p[i], bent(m.p[i])) < 0.5); /* as a patch of 9 edges across is bent */
+		if (mr_dist(m.p[i], m.p[v]) > 10)
+			assert_memory_equal(&p[i], &was[i], sizeof *p);
+	}
+}
+
+/* Rigid motions are followed to rounding. */
+static void
+test_mended_rigidly(void **state)
+{
+	mr_mesh m = lattice(16);
+	const uint32_t v = 17 * 8 + 8;
+	mr_v3 *p = copy_of(&m);
+
+	(void)state;
+	for (size_t i = 0; i < m.nv; i++)
+		p[i] = mr_vec(3 - m.p[i].y, m.p[i].x, m.p[i].z + 7);
+	p[v].y += 1.5;
+	assert_true(mr_mend(&ctx, &m, NULL, p) > 0);
+	for (size_t i = 0; i < m.nv; i++)
+		assert_true(mr_dist(p[i], mr_vec(3 - m.p[i].y, m.p[i].x, m.p[i].z + 7)) < 1e-12 * 24);
+}
+
+/* What is held stays, and nothing moves where that leaves the harm. */
+static void
+test_held_is_not_mended(void **state)
+{
+	mr_mesh m = lattice(16);
+	const uint32_t v = 17 * 8 + 8;
+	mr_v3 *p = copy_of(&m);
+	bool *held = MR_NEW_ZERO(&ctx, m.nv, bool);
+
+	(void)state;
+	held[v] = true;
+	p[v].x += 1.5;
+	mr_mend(&ctx, &m, held, p);
+	assert_true(p[v].x == m.p[v].x + 1.5);
+	memset(held, 1, m.nv);
+	memcpy(p, m.p, m.nv * sizeof *p);
+	p[v].x += 1.5;
+	assert_int_equal(mr_mend(&ctx, &m, held, p), 0);
+}
+
+/* Parts that meet may be meant: a sheet stuck through another one stays. */
+static void
+test_far_is_not_mended(void **state)
+{
+	mr_mesh sheet = lattice(20), m = both(&sheet, &sheet, mr_vec(0, 0, 30));
+	mr_v3 *p = copy_of(&m), *was;
+
+	(void)state;
+	for (size_t v = sheet.nv; v < m.nv; v++)
+		p[v] = mr_vec(m.p[v].x, 8.3, m.p[v].y - 8.1);
+	was = MR_NEW(&ctx, m.nv, mr_v3);
+	memcpy(was, p, m.nv * sizeof *p);
+	assert_true(harm_of(&m, p).far > 20);
+	assert_int_equal(mr_mend(&ctx, &m, NULL, p), 0);
+	assert_memory_equal(p, was, m.nv * sizeof *p);
+}
+
 int
 main(void)
 {
@@ -155,6 +246,10 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_sheets, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_no_more_than_before, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_touching, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_mended, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_mended_rigidly, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_held_is_not_mended, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_far_is_not_mended, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
