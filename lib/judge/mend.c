@@ -43,7 +43,7 @@ typedef struct mending {
 	double *edge2;   /* of each vertex the longest edge, squared */
 	uint8_t *times;  /* in how many rounds a vertex was harmed, of the last ones */
 	uint8_t *ring;   /* of each vertex around these, or OUTSIDE */
-	uint8_t reach;   /* rings that are mended */
+	int reach;       /* rings that are mended */
 	uint32_t *patch; /* of each vertex within reach and around: the patch's least */
 	uint32_t *node;  /* by patches */
 	size_t *start;   /* of the nodes of each patch */
@@ -65,37 +65,37 @@ is_inner(const mending *w, size_t v)
 }
 
 static void
-draw_near(mending *w, const uint32_t v[3], uint8_t ring)
+draw_near(mending *w, const uint32_t v[3], int ring)
 {
 	for (int i = 0; i < 3; i++)
-		w->ring[v[i]] = w->ring[v[i]] < ring ? w->ring[v[i]] : ring;
+		w->ring[v[i]] = w->ring[v[i]] < ring ? w->ring[v[i]] : (uint8_t)ring;
 }
 
 /* Whether rings go on from v at the k-th: not over what is held. */
 static bool
-goes_on(const mending *w, uint32_t v, uint8_t k)
+goes_on(const mending *w, uint32_t v, int k)
 {
 	return w->ring[v] == k && !is_held(w, v);
 }
 
 /* Over faces, and to parts that touch. */
 static void
-find_rings(mending *w, uint8_t round)
+find_rings(mending *w, int round)
 {
 	const mr_mesh *m = w->then;
 
 	for (size_t v = 0; v < m->nv; v++)
 		w->ring[v] = w->times[v] ? (uint8_t)(FURTHER * (round - w->times[v])) : OUTSIDE;
-	for (uint8_t k = 0; k < w->reach + AROUND; k++) {
+	for (int k = 0; k < w->reach + AROUND; k++) {
 		for (size_t f = 0; f < m->nf; f++) {
 			const uint32_t *v = m->t[f].v;
 			if (goes_on(w, v[0], k) || goes_on(w, v[1], k) || goes_on(w, v[2], k))
-				draw_near(w, v, (uint8_t)(k + 1));
+				draw_near(w, v, k + 1);
 		}
 		for (uint32_t v = 0; v < m->nv; v++)
 			for (size_t c = w->contacts.start[v];
 			     goes_on(w, v, k) && c < w->contacts.start[v + 1]; c++)
-				draw_near(w, m->t[w->contacts.at[c].face].v, (uint8_t)(k + 1));
+				draw_near(w, m->t[w->contacts.at[c].face].v, k + 1);
 	}
 }
 
@@ -265,11 +265,11 @@ count_times(mending *w)
 }
 
 static size_t
-mend(mr_ctx *ctx, mending *w, uint8_t round)
+mend(mr_ctx *ctx, mending *w, int round)
 {
 	size_t nv = w->then->nv;
 
-	w->reach = (uint8_t)(REACH + FURTHER * (round - 1));
+	w->reach = REACH + FURTHER * (round - 1);
 	count_times(w);
 	find_rings(w, round);
 	find_patches(w);
@@ -328,7 +328,7 @@ mr_mend(mr_ctx *ctx, const mr_mesh *then, const bool *held, mr_v3 *now)
 		return 0;
 	make_room(ctx, &w);
 	look(ctx, &w, &w.now);
-	for (uint8_t round = 1; round <= ROUNDS; round++)
+	for (int round = 1; round <= ROUNDS; round++)
 		mended += mend(ctx, &w, round);
 	return mended;
 }
