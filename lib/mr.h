@@ -512,8 +512,7 @@ typedef enum mr_decode_source {
 	MR_FROM_CONTROL
 } mr_decode_source;
 
-/* The frames whose mesh is mended where its detail folds or meets itself on the posed base: those that begin a
- * sequence, or stand alone; all; none. */
+/* Frames to mend: key frames, all, none. */
 typedef enum mr_mended { MR_MEND_KEYS, MR_MEND_ALL, MR_MEND_NONE } mr_mended;
 
 typedef struct mr_decode_opts {

@@ -8,26 +8,26 @@
 #include "judge/judge.h"
 #include "space/contact.h"
 
-/* Patches reach so many rings beyond the harm, further for each round that found it there; around them are
- * rings of nodes. */
+/* A patch reaches REACH rings beyond the harm, and FURTHER rings more for each round that leaves it.  AROUND
+ * rings of nodes surround it. */
 enum { ROUNDS = 4, REACH = 3, FURTHER = 2, AROUND = 2, OUTSIDE = 255 };
-/* Nodes for a patch, at equal strides where there are more. */
+/* A patch has at most NODES nodes, at equal strides. */
 enum { NODES = 512, GRAIN = 64 };
 
-/* The share of the nodes' spread by which maps are drawn towards rotations: of nodes in a plane they would be
+/* Draws maps towards rotations, by this share of the nodes' spread: nodes in a plane leave a map
  * undetermined. */
 static const double RIGID = 0.01;
 
-/* How far a vertex may be moved, in edges: farther, a patch would be squashed, or a limb go astray. */
+/* A vertex moves by at most so many edge lengths.  Larger moves squash patches and pull limbs away. */
 static const double FURTHEST = 3;
 
-/* Of a patch: vertices with harm that can be mended; and all else that is wrong, which must not become more.
- */
+/* A patch must lose harm, and must not gain any other fault. */
 typedef struct tally {
-	size_t harm[2], other[2]; /* now and mended */
+	size_t harm[2], other[2]; /* vertices, now and mended */
 } tally;
 
-/* Positions, and of each vertex what is wrong there: by mr_harm_find, or APART; and its changed edges. */
+/* Positions, and the faults of each vertex: the marks of mr_harm_find, APART, and the number of changed
+ * edges. */
 enum { APART = 8, HARM = MR_HARM_NEAR | MR_HARM_FOLD, OTHER = MR_HARM_FOLD | MR_HARM_FAR | APART };
 typedef struct state {
 	mr_v3 *p;
@@ -71,14 +71,14 @@ draw_near(mending *w, const uint32_t v[3], int ring)
 		w->ring[v[i]] = w->ring[v[i]] < ring ? w->ring[v[i]] : (uint8_t)ring;
 }
 
-/* Whether rings go on from v at the k-th: not over what is held. */
+/* Whether ring k + 1 goes on from v.  Held vertices stop it. */
 static bool
 goes_on(const mending *w, uint32_t v, int k)
 {
 	return w->ring[v] == k && !is_held(w, v);
 }
 
-/* Over faces, and to parts that touch. */
+/* Rings spread over faces, and to touching parts. */
 static void
 find_rings(mending *w, int round)
 {
@@ -106,7 +106,7 @@ join_near(mending *w, uint32_t a, uint32_t b)
 		mr_sets_join(w->patch, a, b);
 }
 
-/* What hangs together, or touches. */
+/* Joins the connected and the touching vertices into patches. */
 static void
 find_patches(mending *w)
 {
@@ -123,7 +123,7 @@ find_patches(mending *w)
 		w->patch[v] = mr_sets_root(w->patch, v);
 }
 
-/* The vertices to mend, and the nodes around them by patches. */
+/* Lists the vertices to mend, and the nodes by patches. */
 static void
 list_vertices(mending *w)
 {
@@ -144,7 +144,7 @@ list_vertices(mending *w)
 			w->node[w->start[w->patch[v] + 1]++] = v;
 }
 
-/* The map at x, by the nodes' weights: their means, and its linear part. */
+/* The affine map at a point: the weighted means of the nodes, and a linear part. */
 typedef struct local_map {
 	mr_v3 then, now;
 	mr_mat3 linear;
@@ -195,7 +195,7 @@ mend_vertices(void *arg, size_t begin, size_t end)
 			continue;
 		m = map_at(w, node, n, (n + NODES - 1) / NODES, w->then->p[v]);
 		to = mr_add(m.now, mr_mat3_apply(&m.linear, mr_sub(w->then->p[v], m.then)));
-		/* a vertex that would go farther stays, which is held against the patch */
+		/* a vertex that would go farther stays, and counts as a fault */
 		if (mr_norm2(mr_sub(to, w->now.p[v])) <= FURTHEST * FURTHEST * w->edge2[v])
 			w->mended.p[v] = to;
 		else
@@ -237,11 +237,11 @@ add_up(const mending *w)
 		}
 }
 
-/* Takes the patches that have become better, and in nothing else worse.  How many vertices. */
-static size_t
+/* Accepts the improved patches. */
+static void
 accept(mending *w)
 {
-	size_t n = 0;
+	bool any = false;
 
 	for (uint32_t v = 0; v < w->then->nv; v++) {
 		const tally *t = &w->tally[w->patch[v]];
@@ -250,13 +250,12 @@ accept(mending *w)
 		w->now.p[v] = w->mended.p[v];
 		w->now.marks[v] = w->mended.marks[v];
 		w->now.changes[v] = w->mended.changes[v];
-		n += is_inner(w, v);
+		any = true;
 	}
-	w->now.folds = n ? w->mended.folds : w->now.folds;
-	return n;
+	w->now.folds = any ? w->mended.folds : w->now.folds;
 }
 
-/* Of what is harmed still, in how many rounds; the others have rest. */
+/* Counts the rounds that left a vertex harmed. */
 static void
 count_times(mending *w)
 {
@@ -264,7 +263,7 @@ count_times(mending *w)
 		w->times[v] = w->now.marks[v] & HARM ? (uint8_t)(w->times[v] + 1) : 0;
 }
 
-static size_t
+static void
 mend(mr_ctx *ctx, mending *w, int round)
 {
 	size_t nv = w->then->nv;
@@ -279,7 +278,8 @@ mend(mr_ctx *ctx, mending *w, int round)
 	mr_parallel(ctx, w->count, GRAIN, mend_vertices, w);
 	look(ctx, w, &w->mended);
 	add_up(w);
-	return w->mended.folds > w->now.folds ? 0 : accept(w);
+	if (w->mended.folds <= w->now.folds)
+		accept(w);
 }
 
 static void
@@ -312,7 +312,7 @@ make_room(mr_ctx *ctx, mending *w)
 	mr_contacts_find(ctx, w->then, MR_TOUCH * mr_mesh_diagonal(w->then), &w->contacts);
 }
 
-size_t
+void
 mr_mend(mr_ctx *ctx, const mr_mesh *then, const bool *held, mr_v3 *now)
 {
 	MR_SCOPE(ctx);
@@ -320,15 +320,13 @@ mr_mend(mr_ctx *ctx, const mr_mesh *then, const bool *held, mr_v3 *now)
 		.then = then, .held = held, .now = { now, MR_NEW_ZERO(ctx, then->nv, uint8_t), NULL, 0 }
 	};
 	mr_motion motion = mr_motion_of(ctx, then, now);
-	size_t mended = 0;
 	mr_harm h;
 
 	mr_harm_find(ctx, &motion, NULL, &h);
 	if (!mr_harm_folds(&h, then->nf) && !mr_harm_crosses(&h, then->nf))
-		return 0;
+		return;
 	make_room(ctx, &w);
 	look(ctx, &w, &w.now);
 	for (int round = 1; round <= ROUNDS; round++)
-		mended += mend(ctx, &w, round);
-	return mended;
+		mend(ctx, &w, round);
 }

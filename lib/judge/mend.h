@@ -4,11 +4,9 @@
 
 #include "mesh/mesh.h"
 
-/* Where the motion of then to `now` (then->nv) folds the surface, or makes faces meet that are near along it,
- * these go along with what is around them, as space does there: by moving least squares (Schaefer, McPhail,
- * Warren 2006: Image deformation using moving least squares, section 2.1).  held: vertices that stay where
- * they are; NULL: none.  Returns how many vertices were moved, some in
- * several rounds. */
-size_t mr_mend(mr_ctx *ctx, const mr_mesh *then, const bool *held, mr_v3 *now);
+/* Mends `now`, the moved vertices of then, where the motion folds the surface or makes near faces intersect.
+ * Such a patch follows its surroundings by moving least squares (Schaefer, McPhail, Warren 2006: Image
+ * deformation using moving least squares, section 2.1).  held: vertices that must stay; NULL: none. */
+void mr_mend(mr_ctx *ctx, const mr_mesh *then, const bool *held, mr_v3 *now);
 
 #endif

@@ -25,7 +25,7 @@ prepared_at_rest(mr_ctx *ctx, mr_rest_cache *kept, const mr_frame *f, mr_mesh re
 	return kept->prepared;
 }
 
-/* The vertices that constraints have; NULL without any. */
+/* Marks the constrained vertices; NULL without any. */
 static mr_status
 find_held(mr_ctx *ctx, mr_frame *f, size_t nv, bool **held)
 {
@@ -41,14 +41,13 @@ find_held(mr_ctx *ctx, mr_frame *f, size_t nv, bool **held)
 	return MR_OK;
 }
 
-/* Mends what has come of the mesh by a pose of base.  p: its positions as decoded. */
+/* Mends the decoded positions p of mesh after a pose of base. */
 static mr_status
 mend(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d, mr_v3 *p)
 {
 	mr_v3 *rest;
 	mr_mesh mesh;
 	bool *held;
-	size_t n;
 
 	if (!mr_layer_has(f, "mesh", "triangles") || !memcmp(base->p, d->rest, base->nv * sizeof *base->p))
 		return MR_OK;
@@ -57,9 +56,7 @@ mend(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d, mr_v3 *p
 	rest = MR_NEW(ctx, d->n, mr_v3);
 	mr_detail_at_rest(ctx, base, d, rest);
 	mesh.p = rest;
-	n = mr_mend(ctx, &mesh, held, p);
-	if (n > 0)
-		mr_note(ctx, "%zu vertices go along with those around, lest the mesh fold or meet itself", n);
+	mr_mend(ctx, &mesh, held, p);
 	return MR_OK;
 }
 

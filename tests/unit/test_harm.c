@@ -161,7 +161,6 @@ test_mended(void **state)
 	const uint32_t v = 25 * 12 + 12;
 	mr_v3 *p = copy_of(&m), *was;
 	mr_harm h;
-	size_t n;
 
 	(void)state;
 	for (size_t i = 0; i < m.nv; i++)
@@ -171,10 +170,10 @@ test_mended(void **state)
 	assert_true(harm_of(&m, p).folds > 5);
 	was = MR_NEW(&ctx, m.nv, mr_v3);
 	memcpy(was, p, m.nv * sizeof *p);
-	n = mr_mend(&ctx, &m, NULL, p);
+	mr_mend(&ctx, &m, NULL, p);
 	h = harm_of(&m, p);
 	assert_true(h.folds == 0 && h.pairs == 0);
-	assert_true(n > 30 && n < m.nv / 2);
+	assert_true(memcmp(p, was, m.nv * sizeof *p) != 0);
 	for (size_t i = 0; i < m.nv; i++) {
 		assert_true(mr_dist(p[i], bent(m.p[i])) < 0.5); /* as a patch of 9 edges across is bent */
 		if (mr_dist(m.p[i], m.p[v]) > 10)
@@ -194,7 +193,7 @@ test_mended_rigidly(void **state)
 	for (size_t i = 0; i < m.nv; i++)
 		p[i] = mr_vec(3 - m.p[i].y, m.p[i].x, m.p[i].z + 7);
 	p[v].y += 1.5;
-	assert_true(mr_mend(&ctx, &m, NULL, p) > 0);
+	mr_mend(&ctx, &m, NULL, p);
 	for (size_t i = 0; i < m.nv; i++)
 		assert_true(mr_dist(p[i], mr_vec(3 - m.p[i].y, m.p[i].x, m.p[i].z + 7)) < 1e-12 * 24);
 }
@@ -216,7 +215,8 @@ test_held_is_not_mended(void **state)
 	memset(held, 1, m.nv);
 	memcpy(p, m.p, m.nv * sizeof *p);
 	p[v].x += 1.5;
-	assert_int_equal(mr_mend(&ctx, &m, held, p), 0);
+	mr_mend(&ctx, &m, held, p);
+	assert_true(p[v].x == m.p[v].x + 1.5 && p[v - 1].x == m.p[v - 1].x);
 }
 
 /* Parts that meet may be meant: a sheet stuck through another one stays. */
@@ -232,7 +232,7 @@ test_far_is_not_mended(void **state)
 	was = MR_NEW(&ctx, m.nv, mr_v3);
 	memcpy(was, p, m.nv * sizeof *p);
 	assert_true(harm_of(&m, p).far > 20);
-	assert_int_equal(mr_mend(&ctx, &m, NULL, p), 0);
+	mr_mend(&ctx, &m, NULL, p);
 	assert_memory_equal(p, was, m.nv * sizeof *p);
 }
 
